@@ -1,0 +1,12 @@
+# Everything the project links, all of it Debian packages (the list is cmake/packages.txt).
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(spectra 1.0 REQUIRED)
+find_package(nlohmann_json 3.11 REQUIRED)
+find_package(yaml-cpp 0.7 REQUIRED)
+find_package(CLI11 2.1 REQUIRED)
+find_package(fmt 9 REQUIRED)
+find_package(spdlog REQUIRED)
+find_package(ZLIB REQUIRED)
+find_package(Threads REQUIRED)
+find_package(OpenMP REQUIRED COMPONENTS CXX)
+include(cmake/FindSparseSolvers.cmake)

@@ -1,0 +1,21 @@
+#include "fem/error.hpp"
+
+#include <fmt/format.h>
+
+namespace tenon {
+
+std::string to_string(const Place& place) {
+  if (place.line <= 0) return place.file;
+  if (place.column <= 0) return fmt::format("{}:{}", place.file, place.line);
+  return fmt::format("{}:{}:{}", place.file, place.line, place.column);
+}
+
+InputError::InputError(const Place& place, const std::string& what, const std::string& cure)
+    : Error(fmt::format("{}: {}. {}.", to_string(place), what, cure)), place_(place) {}
+
+ModelError::ModelError(const std::string& what, const std::string& cure) : Error(fmt::format("{}. {}.", what, cure)) {}
+
+NumericalError::NumericalError(const std::string& what, double figure, const std::string& cure)
+    : Error(fmt::format("{} ({:.3g}). {}.", what, figure, cure)), figure_(figure) {}
+
+}  // namespace tenon

@@ -1,0 +1,169 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "fem/mesh.hpp"
+#include "fem/spatial.hpp"
+
+/// The structural model: what a mesh becomes once materials, sections, masses, links and ports are known. SI units.
+/// Every node has six dofs [ux uy uz rx ry rz] in the basic frame.
+namespace tenon::fem {
+
+struct Material {
+  std::string name;
+  double E = 0.0;    ///< Young's modulus [Pa]
+  double G = 0.0;    ///< shear modulus [Pa]
+  double nu = 0.0;   ///< Poisson's ratio
+  double rho = 0.0;  ///< density [kg/m³]
+};
+
+/// Section constants in the element's own axes (x along the beam, y in the plane of the orientation vector).
+struct BeamSection {
+  std::string name;
+  double A = 0.0;        ///< area [m²]
+  double Iy = 0.0;       ///< second moment about y (bending in x–z) [m⁴]
+  double Iz = 0.0;       ///< second moment about z (bending in x–y) [m⁴]
+  double Iyz = 0.0;      ///< product of inertia [m⁴]
+  double J = 0.0;        ///< torsion constant [m⁴]
+  double kappa_y = 0.0;  ///< shear coefficient for forces along y; 0 means rigid in shear (κ → ∞, Euler-Bernoulli)
+  double kappa_z = 0.0;  ///< shear coefficient for forces along z
+  double nsm = 0.0;      ///< non-structural mass per length [kg/m]
+};
+
+struct ShellSection {
+  std::string name;
+  double thickness = 0.0;          ///< [m]
+  double nsm = 0.0;                ///< non-structural mass per area [kg/m²]
+  double bending_ratio = 1.0;      ///< 12 I / t³
+  double shear_ratio = 5.0 / 6.0;  ///< κ
+};
+
+/// Which mass matrix a beam gets.
+///  high_order: consistent plus c K_e, c the leading error of 1/λ: O(h²) more accurate, rigid masses unchanged.
+///  consistent: the kinetic energy of the exact static shapes.
+///  nastran:    Nastran's COUPMASS bar: Euler-Bernoulli consistent, axial part averaged with lumped, no torsional
+///  inertia.
+enum class BeamMass { high_order, consistent, nastran };
+
+struct Beam {
+  std::array<int, 2> nodes{};
+  int section = 0;
+  int material = 0;
+  Vec3 orientation = Vec3::UnitZ();  ///< with the axis spans the element's x–y plane (Nastran's v)
+  std::array<Vec3, 2> offsets{Vec3::Zero(), Vec3::Zero()};  ///< from node to beam end, basic frame [m]
+  BeamMass mass = BeamMass::high_order;
+  bool rotary_inertia = true;  ///< of the section in bending; ignored by `nastran`
+  long id = 0;
+};
+
+struct Quad4 {
+  std::array<int, 4> nodes{};
+  int section = 0;
+  int material = 0;
+  long id = 0;
+};
+
+struct Tria3 {
+  std::array<int, 3> nodes{};
+  int section = 0;
+  int material = 0;
+  long id = 0;
+};
+
+/// Mass at `offset` from its node, inertia about its own centre of mass, axes of the basic frame.
+struct PointMass {
+  int node = 0;
+  double mass = 0.0;            ///< [kg]
+  Mat3 inertia = Mat3::Zero();  ///< [kg m²]
+  Vec3 offset = Vec3::Zero();   ///< [m]
+  long id = 0;
+};
+
+/// k between two dofs, or from one dof to ground (node_b < 0).
+struct Spring {
+  int node_a = 0, dof_a = 0;
+  int node_b = -1, dof_b = 0;
+  double k = 0.0;  ///< [N/m] or [N m/rad]
+  long id = 0;
+};
+
+using Element = std::variant<Beam, Quad4, Tria3, PointMass, Spring>;
+
+/// One of the six dofs of a node, 0..5.
+struct Dof {
+  int node = 0;
+  int direction = 0;
+};
+
+/// A set of directions as bits 0..5 (bit 0 = ux). all_six = 0b111111.
+using Directions = std::uint8_t;
+inline constexpr Directions all_six = 0b111111;
+
+/// RBE2: the listed directions of every dependent node follow the independent node as a rigid body.
+struct RigidLink {
+  int independent = 0;
+  std::vector<int> dependents;
+  Directions directions = all_six;
+  Mat3 axes = Mat3::Identity();  ///< columns: the directions' axes in the basic frame
+  long id = 0;
+};
+
+/// RBE3: the listed directions of `reference` are the weighted average motion of the others.
+struct AverageLink {
+  struct Group {
+    int node = 0;
+    double weight = 1.0;
+    Directions directions = 0b000111;
+  };
+  int reference = 0;
+  Directions directions = all_six;
+  std::vector<Group> nodes;
+  long id = 0;
+};
+
+/// MPC: Σ coefficient · u(dof) = 0; the first term is the one to eliminate where that is possible.
+struct LinearConstraint {
+  struct Term {
+    Dof dof;
+    double coefficient = 0.0;
+  };
+  std::vector<Term> terms;
+  long id = 0;
+};
+
+/// SPC: the dof is held at zero.
+struct Support {
+  Dof dof;
+};
+
+/// A place where the body can be joined: a node with six dofs and axes for its joint.
+struct Port {
+  std::string name;
+  int node = 0;
+  Mat3 axes = Mat3::Identity();  ///< columns: the port's axes in the body frame
+};
+
+struct Model {
+  std::string source;
+  std::vector<Vec3> nodes;     ///< [m]
+  std::vector<long> node_ids;  ///< the file's numbers, for messages; < 0 for nodes made here
+  std::vector<Material> materials;
+  std::vector<BeamSection> beam_sections;
+  std::vector<ShellSection> shell_sections;
+  std::vector<Element> elements;
+  std::vector<RigidLink> rigid_links;
+  std::vector<AverageLink> average_links;
+  std::vector<LinearConstraint> constraints;
+  std::vector<Support> supports;
+  std::vector<Port> ports;
+  std::vector<Loss> losses;
+};
+
+/// "node 45 rz", with the file's node number.
+std::string name(const Model& model, const Dof& dof);
+
+}  // namespace tenon::fem

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "fem/model.hpp"
+
+namespace tenon::fem {
+
+using SparseMatrix = Eigen::SparseMatrix<double>;
+
+/// Where each of the 6 dofs a node went: free (its own row of K and M), held, unused (no stiffness, no mass), or a
+/// linear combination of free ones: u_full = T u_free, T kept row by row.
+struct DofMap {
+  struct Term {
+    int free = 0;  ///< index of a free dof
+    double coefficient = 1.0;
+  };
+  std::vector<int> start;  ///< size 6·nodes + 1: terms of full dof i are terms[start[i] .. start[i+1])
+  std::vector<Term> terms;
+  std::vector<Dof> free;           ///< the dof behind each row of K and M
+  std::vector<std::string> names;  ///< "node 45 rz", one a free dof
+  std::vector<Dof> unused;         ///< dofs dropped since nothing gives them stiffness or mass
+  int redundant_constraints = 0;
+
+  int n_free() const { return static_cast<int>(free.size()); }
+  int n_nodes() const { return static_cast<int>(start.size() / 6); }
+  /// The row of a dof that is itself free, or −1.
+  int row(const Dof& dof) const;
+  /// T u: all 6·nodes displacements from the free ones (columns are shapes).
+  Eigen::MatrixXd expand(const Eigen::Ref<const Eigen::MatrixXd>& u_free) const;
+  /// Displacements of one node (6×columns) from the free ones.
+  Mat6X expand_node(int node, const Eigen::Ref<const Eigen::MatrixXd>& u_free) const;
+};
+
+/// K and M of a model: sparse, symmetric, **lower triangle stored**, constraints eliminated exactly.
+struct Structure {
+  SparseMatrix K;  ///< [N/m], n×n
+  SparseMatrix M;  ///< [kg], n×n; may be singular
+  DofMap dofs;
+  std::vector<Vec3> nodes;  ///< positions [m]
+  std::vector<long> node_ids;
+  std::vector<Port> ports;
+
+  int n() const { return static_cast<int>(K.rows()); }
+};
+
+/// Assembles K and M: Σ TᵀK_eT, TᵀM_eT; no heap allocation per element. Port nodes are never eliminated.
+/// Throws ModelError for bad elements (named), dependency cycles, over-constraint.
+Structure assemble(const Model& model);
+
+/// Rigid-body motions about `point` restricted to the free dofs: n×6, columns = unit twist components.
+Eigen::MatrixXd rigid_motions(const Structure& structure, const Vec3& point);
+
+/// Mass, centre of mass and inertia.
+struct MassProperties {
+  double mass = 0.0;            ///< [kg]
+  Vec3 centre = Vec3::Zero();   ///< [m]
+  Mat3 inertia = Mat3::Zero();  ///< about the centre [kg m²]
+};
+
+/// From RᵀMR.
+MassProperties mass_properties(const Structure& structure);
+/// From volumes, areas, lengths and densities alone: an independent check of the former.
+MassProperties geometric_mass_properties(const Model& model);
+
+}  // namespace tenon::fem
