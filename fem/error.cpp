@@ -10,12 +10,23 @@ std::string to_string(const Place& place) {
   return fmt::format("{}:{}:{}", place.file, place.line, place.column);
 }
 
-InputError::InputError(const Place& place, const std::string& what, const std::string& cure)
-    : Error(fmt::format("{}: {}. {}.", to_string(place), what, cure)), place_(place) {}
+namespace {
 
-ModelError::ModelError(const std::string& what, const std::string& cure) : Error(fmt::format("{}. {}.", what, cure)) {}
+/// A sentence ends once: questions ("Did you mean ...?") and sentences that bring their stop keep it.
+std::string sentence(const std::string& text) {
+  const bool ended = !text.empty() && (text.back() == '?' || text.back() == '.');
+  return ended ? text : text + '.';
+}
+
+}  // namespace
+
+InputError::InputError(const Place& place, const std::string& what, const std::string& cure)
+    : Error(fmt::format("{}: {} {}", to_string(place), sentence(what), sentence(cure))), place_(place) {}
+
+ModelError::ModelError(const std::string& what, const std::string& cure)
+    : Error(fmt::format("{} {}", sentence(what), sentence(cure))) {}
 
 NumericalError::NumericalError(const std::string& what, double figure, const std::string& cure)
-    : Error(fmt::format("{} ({:.3g}). {}.", what, figure, cure)), figure_(figure) {}
+    : Error(fmt::format("{} ({:.3g}). {}", what, figure, sentence(cure))), figure_(figure) {}
 
 }  // namespace tenon

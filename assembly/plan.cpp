@@ -1,0 +1,83 @@
+#include "assembly/plan.hpp"
+
+#include <fmt/format.h>
+
+#include <numbers>
+
+namespace tenon::assembly {
+namespace {
+
+double hertz(double omega) { return omega / (2.0 * std::numbers::pi); }
+
+/// Fixed-interface modes up to twice the band's top: the rule of thumb of component mode synthesis (Craig & Kurdila).
+constexpr double band_factor = 2.0;
+
+void plan_automatic(const Requirement& requirement, BodyPlan& body) {
+  if (requirement.band) {
+    const double top = (*requirement.band)[1];
+    body.options.band = band_factor * top;
+    body.kept =
+        fmt::format("static shapes of all ports, fixed-interface modes below {:.4g} Hz", hertz(band_factor * top));
+    body.dropped = fmt::format("fixed-interface modes above {:.4g} Hz", hertz(band_factor * top));
+    body.why = fmt::format("the scene requires {:.4g} Hz; twice that keeps the error of the cut small", hertz(top));
+  } else {
+    body.options.modes = default_modes;
+    body.kept = fmt::format("static shapes of all ports, the lowest {} fixed-interface modes", default_modes);
+    body.dropped = "all higher fixed-interface modes";
+    body.why = "the scene states no band (requires: {band: ...}), so the default count is kept";
+  }
+}
+
+void plan_chosen(const SceneReduction& chosen, BodyPlan& body) {
+  const bool clamped = chosen.basis == reduction::Basis::clamped_free;
+  const std::string modes = clamped ? "modes clamped at the parent port" : "fixed-interface modes";
+  body.options.basis = chosen.basis;
+  body.options.band = chosen.band;
+  body.options.all_modes = chosen.all;
+  if (chosen.modes) body.options.modes = *chosen.modes;
+  body.kept = chosen.all    ? fmt::format("all {}", modes)
+              : chosen.band ? fmt::format("{} below {:.4g} Hz", modes, hertz(*chosen.band))
+                            : fmt::format("the lowest {} {}", *chosen.modes, modes);
+  if (!clamped) body.kept = "static shapes of all ports, " + body.kept;
+  body.dropped = chosen.all ? "nothing" : clamped ? "higher modes, and static shapes of the ports" : "higher modes";
+  body.why = "the scene says so";
+}
+
+BodyPlan plan_body(const SceneBody& scene_body, const Requirement& requirement) {
+  BodyPlan body;
+  body.body = scene_body.name;
+  body.options.zeta = scene_body.damping;
+  if (std::holds_alternative<RigidSource>(scene_body.source)) {
+    body.rigid = true;
+    body.kept = "mass and inertia";
+    body.dropped = "nothing";
+    body.why = "a rigid body has no more";
+  } else if (std::holds_alternative<ReducedSource>(scene_body.source)) {
+    body.kept = "every mode of its file";
+    body.dropped = "nothing";
+    body.why = "it is reduced already";
+  } else if (scene_body.reduction.kind == SceneReduction::Kind::rigid) {
+    body.rigid = true;
+    body.kept = "mass, centre and inertia of the mesh";
+    body.dropped = "all flexibility";
+    body.why = "the scene says so";
+  } else if (scene_body.reduction.kind == SceneReduction::Kind::automatic) {
+    plan_automatic(requirement, body);
+  } else {
+    plan_chosen(scene_body.reduction, body);
+  }
+  return body;
+}
+
+}  // namespace
+
+Plan plan(const Scene& scene) {
+  Plan plan;
+  for (const SceneBody& body : scene.bodies) plan.bodies.push_back(plan_body(body, scene.requirement));
+  if (scene.ground.empty()) plan.notes.push_back("Nothing is grounded: the system floats free with six rigid motions.");
+  if (scene.inputs.empty()) plan.notes.push_back("The scene names no inputs: it has modes, but no responses.");
+  if (scene.outputs.empty()) plan.notes.push_back("The scene names no outputs: it has modes, but no responses.");
+  return plan;
+}
+
+}  // namespace tenon::assembly

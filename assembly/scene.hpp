@@ -1,0 +1,163 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "assembly/network.hpp"
+#include "assembly/scene/units.hpp"
+#include "fem/error.hpp"
+#include "reduction/reduce.hpp"
+
+/// A scene as its file says it, in SI and radians: values only, nothing opened, nothing computed.
+/// What is kept of it and why is plan.hpp's business; build.hpp makes models and networks from it.
+namespace tenon::assembly {
+
+/// Chooses nodes of a mesh.
+struct NodeSelector {
+  enum class Kind { at, nearest, node, set, port };
+  Kind kind = Kind::at;
+  Vec3 point = Vec3::Zero();   ///< at, nearest [m]
+  std::optional<Vec3> centre;  ///< of a set: where its own node is made; the set's centroid when absent [m]
+  long node = 0;               ///< the file's own number
+  std::string name;            ///< of the set or port
+  Place place;
+};
+
+struct ScenePort {
+  std::string name;
+  NodeSelector where;
+  bool average = false;          ///< a set follows its port on average (RBE3), not rigidly (RBE2)
+  Mat3 axes = Mat3::Identity();  ///< columns: the port's axes in the body frame
+  Place place;
+};
+
+struct SceneSection {
+  std::string set;  ///< of cells; "everywhere": all that no other section names
+  std::variant<fem::BeamSection, fem::ShellSection> shape;
+  fem::Material material;
+  std::optional<Vec3> orientation;  ///< beams; needed unless the section is round
+  bool round = false;
+  bool rotary_inertia = true;
+  Vec3 offset = Vec3::Zero();  ///< beams [m]
+  Place place;
+};
+
+struct SceneSupport {
+  std::string set;  ///< "everywhere": all nodes
+  fem::Directions directions = fem::all_six;
+  Place place;
+};
+
+struct SceneNodeMass {
+  std::string name;
+  NodeSelector where;
+  double mass = 0.0;
+  Mat3 inertia = Mat3::Zero();
+  Vec3 offset = Vec3::Zero();
+};
+
+struct RigidSource {
+  double mass = 0.0;
+  Vec3 centre = Vec3::Zero();
+  Mat3 inertia = Mat3::Zero();  ///< about the centre
+};
+
+struct FeSource {
+  std::filesystem::path file;
+  Units units;  ///< of the file
+  std::vector<SceneSection> sections;
+  std::vector<SceneSupport> supports;
+  std::vector<SceneNodeMass> masses;
+  std::optional<fem::BeamMass> beam_mass;  ///< absent: high order for meshes, the deck's own for decks
+  std::vector<std::string> ignore;         ///< sets that carry no structure
+  std::vector<std::string> allow;          ///< losses that may change the physics
+};
+
+struct ReducedSource {
+  std::filesystem::path file;
+};
+
+struct SceneReduction {
+  enum class Kind { automatic, rigid, chosen };
+  Kind kind = Kind::automatic;
+  reduction::Basis basis = reduction::Basis::craig_bampton;
+  std::optional<int> modes;
+  std::optional<double> band;  ///< [rad/s]
+  bool all = false;
+};
+
+struct SceneBody {
+  std::string name;
+  std::variant<RigidSource, FeSource, ReducedSource> source;
+  std::vector<ScenePort> ports;  ///< of a reduced body: none, they stand in its file
+  std::string parent_port;       ///< "" for a reduced body that keeps its own
+  double damping = 0.0;
+  SceneReduction reduction;
+  Place place;
+};
+
+/// "body.port", or a body or a joint alone where the grammar allows it.
+struct SceneTarget {
+  std::string body, port;
+  Place place;
+};
+
+struct SceneJoint {
+  Joint joint;  ///< its ports are still names
+  SceneTarget parent, child;
+  Place place;
+};
+
+struct SceneMass {
+  std::string name;
+  SceneTarget at;
+  double mass = 0.0;
+  Mat3 inertia = Mat3::Zero();
+};
+
+/// One scalar input or output; `at.port` is empty for a body or a joint. A rigid body alone means its centre of mass,
+/// another body alone its parent port.
+struct SceneInput {
+  std::string name;
+  SceneTarget at;
+  bool joint = false;
+  int direction = 0;
+};
+
+struct SceneOutput {
+  std::string name;
+  SceneTarget at;
+  bool joint = false;
+  Quantity quantity = Quantity::acceleration;
+  int direction = 0;
+};
+
+/// What the scene is for.
+struct Requirement {
+  std::optional<std::array<double, 2>> band;  ///< [rad/s]
+  double tolerance = 1e-3;                    ///< of frequencies, relative
+};
+
+struct Scene {
+  std::filesystem::path file;
+  Units units;
+  std::vector<SceneBody> bodies;
+  std::vector<SceneJoint> joints;
+  std::vector<SceneMass> masses;
+  std::vector<SceneTarget> ground;
+  std::vector<SceneInput> inputs;
+  std::vector<SceneOutput> outputs;
+  Requirement requirement;
+};
+
+/// Reads a scene (YAML or JSON). Throws InputError with line and column for anything that the grammar does not know:
+/// unknown keys (with a near miss), missing keys, values of another kind, joints between unknown ports, units missing.
+Scene read_scene(const std::filesystem::path& path);
+
+/// The body of that name; throws InputError with a near miss.
+const SceneBody& body_named(const Scene& scene, const std::string& name);
+
+}  // namespace tenon::assembly

@@ -1,0 +1,212 @@
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+
+#include "assembly/scene/quantity.hpp"
+#include "assembly/scene/read.hpp"
+
+namespace tenon::assembly {
+namespace {
+
+/// The one way in which a port or a mass says where it is.
+NodeSelector read_selector(const Value& map, const std::vector<std::string>& ways, const std::string& what,
+                           const Units& units) {
+  NodeSelector where;
+  where.place = map.place;
+  const std::string way = one_of(map, ways, what);
+  const Value& value = *map.find(way);
+  where.place = value.place;
+  if (way == "at" || way == "nearest") {
+    where.kind = way == "at" ? NodeSelector::Kind::at : NodeSelector::Kind::nearest;
+    where.point = vector(value, dimension::length, units);
+  } else if (way == "node") {
+    where.kind = NodeSelector::Kind::node;
+    where.node = count(value, 1);
+  } else {
+    where.kind = way == "set" ? NodeSelector::Kind::set : NodeSelector::Kind::port;
+    where.name = value.text;
+  }
+  return where;
+}
+
+Mat3 read_axes(const Value& map) {
+  if (const Value* rotate = map.find("rotate")) {
+    refuse(map, {"axes"}, "'rotate'");
+    return Eigen::AngleAxisd(angle(*rotate->find("angle")), axis(*rotate->find("axis"))).toRotationMatrix();
+  }
+  const Value* axes = map.find("axes");
+  if (!axes) return Mat3::Identity();
+  if (axes->items.size() != 3)
+    throw InputError(axes->place, fmt::format("found {} axes, expected 3", axes->items.size()),
+                     "Write [[...], [...], [...]]: the port's x, y and z axes in the body frame");
+  Mat3 R;
+  for (int k = 0; k < 3; ++k) R.col(k) = axis(axes->items[static_cast<std::size_t>(k)]);
+  if ((R.transpose() * R - Mat3::Identity()).cwiseAbs().maxCoeff() > 1e-6 || R.determinant() < 0.0)
+    throw InputError(axes->place, "the axes are not right-handed and at right angles",
+                     "Correct them, or write `rotate: {axis, angle}`");
+  return Eigen::Quaterniond(R).normalized().toRotationMatrix();
+}
+
+ScenePort read_mesh_port(const Member& entry, const Units& units) {
+  const Value& map = entry.value;
+  const std::string what = fmt::format("port '{}'", entry.key);
+  if (map.kind != Value::Kind::map)
+    throw InputError(map.place, fmt::format("{} of a mesh is a bare list", what),
+                     "Write {nearest: [x, y, z]}, {at: [x, y, z]}, {node: N} or {set: name}");
+  ScenePort port{.name = entry.key, .where = {}, .axes = read_axes(map), .place = entry.place};
+  if (map.find("set")) {
+    refuse(map, {"nearest", "node"}, "'set'");
+    port.where = {
+        .kind = NodeSelector::Kind::set, .centre = {}, .name = map.find("set")->text, .place = map.find("set")->place};
+    if (const Value* at = map.find("at")) port.where.centre = vector(*at, dimension::length, units);
+    if (const Value* kind = map.find("kind")) port.average = choice(*kind, {"rigid", "average"}) == 1;
+  } else {
+    refuse(map, {"kind"}, "a port of one node");
+    port.where = read_selector(map, {"at", "nearest", "node"}, what, units);
+  }
+  return port;
+}
+
+ScenePort read_rigid_port(const Member& entry, const Units& units) {
+  const Value& value = entry.value;
+  ScenePort port{.name = entry.key, .where = {}, .place = entry.place};
+  if (value.kind == Value::Kind::list) {
+    port.where.point = vector(value, dimension::length, units);
+  } else {
+    refuse(value, {"set", "nearest", "node", "kind"}, "a rigid body");
+    if (!value.find("at"))
+      throw InputError(value.place, fmt::format("port '{}' has no place", entry.key), "Write `at: [x, y, z]`");
+    port.where.point = vector(*value.find("at"), dimension::length, units);
+    port.axes = read_axes(value);
+  }
+  return port;
+}
+
+fem::Directions read_directions(const Value& value) {
+  fem::Directions directions = 0;
+  for (const Value* word : words(value)) {
+    const int k = choice(*word, {"x", "y", "z", "rx", "ry", "rz", "all"});
+    directions |= static_cast<fem::Directions>(k == 6 ? fem::all_six : 1 << k);
+  }
+  return directions;
+}
+
+std::vector<std::string> texts(const Value* value) {
+  std::vector<std::string> all;
+  if (value)
+    for (const Value* word : words(*value)) all.push_back(word->text);
+  return all;
+}
+
+SceneReduction read_reduction(const Value& value) {
+  using Kind = SceneReduction::Kind;
+  if (value.kind == Value::Kind::scalar)
+    return {.kind = choice(value, {"auto", "rigid"}) == 0 ? Kind::automatic : Kind::rigid, .modes = {}, .band = {}};
+  SceneReduction reduction{.kind = Kind::chosen, .modes = {}, .band = {}};
+  if (const Value* basis = value.find("basis"))
+    if (choice(*basis, {"craig-bampton", "clamped-free"}) == 1) reduction.basis = reduction::Basis::clamped_free;
+  if (one_of(value, {"modes", "band"}, "a reduction") == "band") {
+    reduction.band = frequency(*value.find("band"));
+  } else if (value.find("modes")->text == "all") {
+    reduction.all = true;
+  } else {
+    reduction.modes = count(*value.find("modes"));
+  }
+  return reduction;
+}
+
+bool is_deck(const std::filesystem::path& file) {
+  const std::string extension = file.extension().string();
+  return extension != ".msh";
+}
+
+FeSource read_fe(const Member& entry, const std::filesystem::path& folder, const Materials& materials,
+                 const Units& units) {
+  const Value& body = entry.value;
+  FeSource fe;
+  fe.file = folder / body.find("fe")->text;
+  fe.units = units;
+  const Value* sections = body.find("sections");
+  if (is_deck(fe.file)) {
+    refuse(body, {"sections", "material", "ignore"}, "a deck, which carries its own");
+  } else if (!sections || sections->members.empty()) {
+    throw InputError(
+        entry.place,
+        fmt::format("body '{}' has no sections, and {} carries none", entry.key, fe.file.filename().string()),
+        "Add `sections: {set: {shell: ...}}`, one for each set of cells");
+  }
+  if (sections)
+    for (const Member& section : sections->members)
+      fe.sections.push_back(read_section(section, body.find("material"), materials, units));
+  if (const Value* fix = body.find("fix"))
+    for (const Member& support : fix->members)
+      fe.supports.push_back({support.key, read_directions(support.value), support.place});
+  if (const Value* masses = body.find("masses"))
+    for (const Member& mass : masses->members) {
+      SceneNodeMass node_mass{.name = mass.key,
+                              .where = read_selector(mass.value, {"at", "nearest", "node", "set", "port"},
+                                                     fmt::format("mass '{}'", mass.key), units),
+                              .mass = positive(*mass.value.find("mass"), dimension::mass, units, true)};
+      if (const Value* J = mass.value.find("inertia")) node_mass.inertia = inertia(*J, units);
+      if (const Value* offset = mass.value.find("offset")) node_mass.offset = vector(*offset, dimension::length, units);
+      fe.masses.push_back(std::move(node_mass));
+    }
+  if (const Value* mass = body.find("beam_mass"))
+    fe.beam_mass = static_cast<fem::BeamMass>(choice(*mass, {"high-order", "consistent", "nastran"}));
+  fe.ignore = texts(body.find("ignore"));
+  fe.allow = texts(body.find("allow"));
+  return fe;
+}
+
+}  // namespace
+
+SceneBody read_body(const Member& entry, const std::filesystem::path& folder, const Materials& materials,
+                    const Units& units) {
+  check_name(entry);
+  const Value& map = entry.value;
+  const std::string what = fmt::format("body '{}'", entry.key);
+  SceneBody body;
+  body.name = entry.key;
+  body.place = entry.place;
+  const std::string kind = one_of(map, {"rigid", "fe", "reduced"}, what);
+
+  if (kind == "rigid") {
+    refuse(map, {"material", "sections", "beam_mass", "fix", "masses", "ignore", "allow", "damping", "reduction"},
+           "a rigid body");
+    const Value& rigid = *map.find("rigid");
+    RigidSource source{.mass = positive(*rigid.find("mass"), dimension::mass, units, true),
+                       .inertia = inertia(*rigid.find("inertia"), units)};
+    if (const Value* com = rigid.find("com")) source.centre = vector(*com, dimension::length, units);
+    body.source = source;
+  } else if (kind == "fe") {
+    body.source = read_fe(entry, folder, materials, units);
+  } else {
+    refuse(map,
+           {"material", "sections", "beam_mass", "fix", "masses", "ignore", "allow", "damping", "reduction", "ports"},
+           "a reduced body: its file says it");
+    body.source = ReducedSource{folder / map.find("reduced")->text};
+  }
+
+  if (const Value* ports = map.find("ports"))
+    for (const Member& port : ports->members) {
+      check_name(port);
+      body.ports.push_back(kind == "rigid" ? read_rigid_port(port, units) : read_mesh_port(port, units));
+    }
+  if (const Value* parent = map.find("parent_port")) {
+    body.parent_port = parent->text;
+    std::vector<std::string> names;
+    for (const ScenePort& port : body.ports) names.push_back(port.name);
+    if (kind != "reduced") choice(*parent, names);
+  }
+  if (const Value* damping = map.find("damping")) {
+    body.damping = positive(*damping, dimension::none, units, true);
+    if (body.damping >= 1.0)
+      throw InputError(damping->place, fmt::format("a damping ratio of {} is not below 1", body.damping),
+                       "It is a fraction of critical damping: 0.005 means half a per cent");
+  }
+  if (const Value* reduction = map.find("reduction")) body.reduction = read_reduction(*reduction);
+  return body;
+}
+
+}  // namespace tenon::assembly

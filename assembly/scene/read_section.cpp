@@ -1,0 +1,125 @@
+#include <fmt/format.h>
+
+#include "assembly/scene/quantity.hpp"
+#include "assembly/scene/read.hpp"
+#include "fem/section_shapes.hpp"
+
+namespace tenon::assembly {
+namespace {
+
+/// Typical handbook values at room temperature, SI (docs/scene.md): aluminium 6061-T6, structural steel, Ti-6Al-4V.
+const std::vector<fem::Material>& shipped_materials() {
+  static const std::vector<fem::Material> table{
+      {.name = "aluminium", .E = 68.9e9, .G = 68.9e9 / 2.66, .nu = 0.33, .rho = 2700.0},
+      {.name = "steel", .E = 200e9, .G = 200e9 / 2.6, .nu = 0.3, .rho = 7850.0},
+      {.name = "titanium", .E = 113.8e9, .G = 113.8e9 / 2.684, .nu = 0.342, .rho = 4430.0}};
+  return table;
+}
+
+fem::Material read_material(const Value& map, const Units& units) {
+  fem::Material material;
+  material.E = positive(*map.find("E"), dimension::pressure, units);
+  material.nu = number(*map.find("nu"));
+  if (!(material.nu > -1.0 && material.nu < 0.5))
+    throw InputError(map.find("nu")->place, fmt::format("Poisson's ratio is {}, expected -1 < nu < 0.5", material.nu),
+                     "Correct it; give G apart when the two do not belong together");
+  material.rho = positive(*map.find("rho"), dimension::density, units, true);
+  const Value* G = map.find("G");
+  material.G = G ? positive(*G, dimension::pressure, units) : material.E / (2.0 * (1.0 + material.nu));
+  return material;
+}
+
+fem::BeamSection read_general(const Value& map, const Units& units) {
+  fem::BeamSection section{.name = "general"};
+  section.A = positive(*map.find("A"), dimension::area, units);
+  section.Iy = positive(*map.find("Iy"), dimension::second_moment, units);
+  section.Iz = positive(*map.find("Iz"), dimension::second_moment, units);
+  section.J = positive(*map.find("J"), dimension::second_moment, units, true);
+  if (const Value* Iyz = map.find("Iyz")) section.Iyz = quantity(*Iyz, dimension::second_moment, units);
+  if (section.Iyz * section.Iyz >= section.Iy * section.Iz)
+    throw InputError(map.find("Iyz")->place, "Iyz² is not below Iy Iz", "Check the section's moments");
+  if (const Value* kappa = map.find("kappa_y")) section.kappa_y = positive(*kappa, dimension::none, units, true);
+  if (const Value* kappa = map.find("kappa_z")) section.kappa_z = positive(*kappa, dimension::none, units, true);
+  return section;
+}
+
+fem::BeamSection read_beam_shape(const std::string& key, const Value& value, double nu, const Units& units) {
+  try {
+    if (key == "circle") return fem::circle(positive(value, dimension::length, units), nu);
+    if (key == "general") return read_general(value, units);
+    const std::vector<double> size = quantities(value, key == "box" ? 3 : 2, dimension::length, units);
+    if (key == "tube") return fem::tube(size[0], size[1], nu);
+    if (key == "rectangle") return fem::rectangle(size[0], size[1], nu);
+    return fem::box(size[0], size[1], size[2], nu);
+  } catch (const ModelError& fault) {
+    throw InputError(value.place, fault.what(),
+                     "Sizes are: tube [outer, inner] radii, rectangle [b, h], box [b, h, t]");
+  }
+}
+
+}  // namespace
+
+Materials::Materials(const Value* table, const Units& units) : units_(units) {
+  if (table)
+    for (const Member& entry : table->members) {
+      known_.push_back(read_material(entry.value, units));
+      known_.back().name = entry.key;
+    }
+  for (const fem::Material& material : shipped_materials()) known_.push_back(material);
+}
+
+fem::Material Materials::read(const Value& value) const {
+  if (value.kind == Value::Kind::map) {
+    fem::Material material = read_material(value, units_);
+    material.name = fmt::format("line {}", value.place.line);
+    return material;
+  }
+  std::vector<std::string> names;
+  for (const fem::Material& material : known_) names.push_back(material.name);
+  return known_[static_cast<std::size_t>(choice(value, names))];
+}
+
+SceneSection read_section(const Member& entry, const Value* body_material, const Materials& materials,
+                          const Units& units) {
+  const Value& map = entry.value;
+  const std::string what = fmt::format("section '{}'", entry.key);
+  const Value* material = map.find("material") ? map.find("material") : body_material;
+  if (!material)
+    throw InputError(entry.place, fmt::format("{} has no material", what),
+                     "Add `material: {E, nu, rho}` or a name (aluminium, steel, titanium) to the section or its body");
+
+  SceneSection section{
+      .set = entry.key, .shape = {}, .material = materials.read(*material), .orientation = {}, .place = entry.place};
+  const std::string key = one_of(map, {"shell", "tube", "circle", "rectangle", "box", "general"}, what);
+  const Value* nsm = map.find("nsm");
+  if (key == "shell") {
+    refuse(map, {"shear", "orientation", "offset"}, "a shell");
+    fem::ShellSection shell{.name = entry.key};
+    shell.thickness = positive(*map.find(key), dimension::length, units);
+    if (nsm) shell.nsm = positive(*nsm, dimension::mass_per_area, units, true);
+    section.shape = shell;
+    return section;
+  }
+
+  fem::BeamSection beam = read_beam_shape(key, *map.find(key), section.material.nu, units);
+  if (const Value* shear = map.find("shear")) {
+    if (choice(*shear, {"timoshenko", "euler-bernoulli"}) == 1) {
+      beam = fem::rigid_in_shear(beam);
+      section.rotary_inertia = false;
+    } else if (beam.kappa_y == 0.0 || beam.kappa_z == 0.0) {
+      throw InputError(shear->place, fmt::format("{} has no shear coefficients", what), "Give kappa_y and kappa_z");
+    }
+  }
+  beam.name = entry.key;
+  if (nsm) beam.nsm = positive(*nsm, dimension::mass_per_length, units, true);
+  section.shape = beam;
+  section.round = key == "tube" || key == "circle";
+  if (const Value* orientation = map.find("orientation")) section.orientation = axis(*orientation);
+  if (!section.round && !section.orientation)
+    throw InputError(entry.place, fmt::format("{} is not round and has no orientation", what),
+                     "Add `orientation: [x, y, z]`, a vector that spans with the beam's axis its x-y plane");
+  if (const Value* offset = map.find("offset")) section.offset = vector(*offset, dimension::length, units);
+  return section;
+}
+
+}  // namespace tenon::assembly

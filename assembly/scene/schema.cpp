@@ -1,0 +1,222 @@
+#include "assembly/scene/schema.hpp"
+
+#include <fmt/format.h>
+
+#include "fem/mesh.hpp"
+
+namespace tenon::assembly {
+namespace {
+
+const Schema material{"a material",
+                      {{"E", scalar, "Young's modulus", true},
+                       {"nu", scalar, "Poisson's ratio", true},
+                       {"rho", scalar, "density", true},
+                       {"G", scalar, "shear modulus; E/2(1+nu) when absent"}}};
+
+const Key one_material{"material", map, "", false, &material};
+const Schema materials{"materials", {}, &one_material};
+
+const Schema general_section{"a general beam section",
+                             {{"A", scalar, "area", true},
+                              {"Iy", scalar, "second moment about y: bending in the x-z plane", true},
+                              {"Iz", scalar, "second moment about z: bending in the x-y plane", true},
+                              {"Iyz", scalar, "product of inertia"},
+                              {"J", scalar, "torsion constant", true},
+                              {"kappa_y", scalar, "shear coefficient for forces along y"},
+                              {"kappa_z", scalar, "shear coefficient for forces along z"}}};
+
+const Schema section{"a section",
+                     {{"shell", scalar, "thickness"},
+                      {"tube", list, "[outer, inner] radii"},
+                      {"circle", scalar, "radius"},
+                      {"rectangle", list, "[b along y, h along z]"},
+                      {"box", list, "[b along y, h along z, wall thickness], outer sizes"},
+                      {"general", map, "section constants", false, &general_section},
+                      {"shear", scalar, "timoshenko (default) or euler-bernoulli"},
+                      {"orientation", list, "a vector that spans, with the beam's axis, its x-y plane"},
+                      {"offset", list, "from the nodes to the beam's axis"},
+                      {"material", scalar | map, "in place of the body's", false, &material},
+                      {"nsm", scalar, "non-structural mass per length (beams) or area (shells)"}}};
+
+const Schema rotation{"a rotation",
+                      {{"axis", scalar | list, "x, y, z or a vector", true}, {"angle", scalar, "e.g. 180 deg", true}}};
+
+const Schema port{
+    "a port",
+    {{"at", list, "a point: of a rigid body, of a node there, or (with `set`) of the node made for the set"},
+     {"set", scalar, "a set of the mesh; more than one node is joined to a node of its own"},
+     {"nearest", list, "the node nearest to this point"},
+     {"node", scalar, "the file's own node number"},
+     {"kind", scalar, "rigid (default) or average: how a set follows its port"},
+     {"axes", list, "the port's x, y and z axes in the body frame"},
+     {"rotate", map, "the port's axes by a rotation", false, &rotation}}};
+
+const Schema node_mass{"a mass inside a body",
+                       {{"at", list, "the node at this point"},
+                        {"set", scalar, "a set of one node"},
+                        {"nearest", list, "the node nearest to this point"},
+                        {"node", scalar, "the file's own node number"},
+                        {"port", scalar, "the node of a port"},
+                        {"mass", scalar, "mass", true},
+                        {"inertia", list, "about its own centre: three moments or a 3x3 matrix, body axes"},
+                        {"offset", list, "from the node to the centre of mass"}}};
+
+const Schema rigid{"a rigid body",
+                   {{"mass", scalar, "mass", true},
+                    {"inertia", list, "about the centre of mass: three moments or a 3x3 matrix", true},
+                    {"com", list, "centre of mass in the body frame; the origin when absent"}}};
+
+const Schema reduction{"a reduction",
+                       {{"basis", scalar, "craig-bampton (default) or clamped-free"},
+                        {"modes", scalar, "how many modes, or `all`"},
+                        {"band", scalar, "every mode below this frequency, e.g. 50 Hz"}}};
+
+const Key one_section{"section", map, "", false, &section};
+const Key one_port{"port", list | map, "", false, &port};
+const Key one_node_mass{"mass", map, "", false, &node_mass};
+const Key one_support{"support", scalar | list, ""};
+const Schema sections{"sections", {}, &one_section};
+const Schema ports{"ports", {}, &one_port};
+const Schema node_masses{"masses", {}, &one_node_mass};
+const Schema supports{"supports", {}, &one_support};
+
+const Schema body{"a body",
+                  {{"rigid", map, "a rigid body", false, &rigid},
+                   {"fe", scalar, "a mesh (.msh) or Nastran deck (.bdf, .dat), relative to the scene"},
+                   {"reduced", scalar, "a *.body.json file"},
+                   {"material", scalar | map, "of every section without one of its own", false, &material},
+                   {"sections", map, "set of cells -> section", false, &sections},
+                   {"beam_mass", scalar, "high-order (default), consistent or nastran"},
+                   {"fix", map, "set -> directions held, e.g. [x, y, rz], or all", false, &supports},
+                   {"masses", map, "lumped masses on nodes", false, &node_masses},
+                   {"ignore", list, "sets whose cells carry no structure"},
+                   {"allow", list, "cards of the file that may be read past although they carry stiffness or mass"},
+                   {"ports", map, "where the body can be joined", false, &ports},
+                   {"parent_port", scalar, "the port the body hangs by"},
+                   {"damping", scalar, "damping ratio of every mode"},
+                   {"reduction", scalar | map, "auto (default), rigid, or how to reduce", false, &reduction}}};
+
+const Schema joint{"a joint",
+                   {{"parent", scalar, "body.port", true},
+                    {"child", scalar, "body.port", true},
+                    {"weld", scalar, "true"},
+                    {"revolute", scalar | list, "axis: x, y, z or a vector in the parent port's axes"},
+                    {"angle", scalar, "at rest, e.g. 30 deg"},
+                    {"stiffness", scalar, "about the axis"},
+                    {"damping", scalar, "about the axis"},
+                    {"inertia", scalar, "of the drive, on the relative rotation"}}};
+
+const Schema lumped_mass{"a mass",
+                         {{"at", scalar, "body.port", true},
+                          {"mass", scalar, "mass", true},
+                          {"inertia", list, "about the port: three moments or a 3x3 matrix, body axes"}}};
+
+const Schema input{"an input",
+                   {{"at", scalar, "body.port, a body, or a joint", true},
+                    {"force", scalar | list, "x, y, z or a list of them, world axes"},
+                    {"torque", scalar | list, "x, y, z or a list of them, world axes"}}};
+
+const Schema output{"an output",
+                    {{"at", scalar, "body.port, a body, or a joint", true},
+                     {"displacement", scalar | list, "x, y, z or a list of them, world axes"},
+                     {"velocity", scalar | list, ""},
+                     {"acceleration", scalar | list, ""},
+                     {"rotation", scalar | list, ""},
+                     {"angular_rate", scalar | list, ""},
+                     {"angular_acceleration", scalar | list, ""},
+                     {"measure", scalar, "of a joint: angle, rate or acceleration"}}};
+
+const Schema units{"a system of units",
+                   {{"length", scalar, "m, mm, cm, km, in or ft", true},
+                    {"mass", scalar, "kg, g, t, lb, slug or slinch", true},
+                    {"time", scalar, "s or ms", true}}};
+
+const Schema requirement{"requirements",
+                         {{"band", list, "[lowest, highest] frequency that matters, e.g. [0, 20 Hz]"},
+                          {"tolerance", scalar, "relative error of frequencies that is accepted"}}};
+
+const Schema run{"a run", {{"duration", scalar, "of a simulation"}, {"gravity", list, "acceleration of gravity"}}};
+
+const Key one_body{"body", map, "", false, &body};
+const Key one_joint{"joint", map, "", false, &joint};
+const Key one_mass{"mass", map, "", false, &lumped_mass};
+const Key one_input{"input", map, "", false, &input};
+const Key one_output{"output", map, "", false, &output};
+const Schema bodies{"bodies", {}, &one_body};
+const Schema joints{"joints", {}, &one_joint};
+const Schema lumped_masses{"masses", {}, &one_mass};
+const Schema inputs{"inputs", {}, &one_input};
+const Schema outputs{"outputs", {}, &one_output};
+
+const Schema scene{
+    "a scene",
+    {{"units", scalar | map, "SI or {length, mass, time}: of this file and of unit-less files it names", false, &units},
+     {"materials", map, "name -> material, for use by name", false, &materials},
+     {"bodies", map, "name -> body", true, &bodies},
+     {"joints", map, "name -> joint", false, &joints},
+     {"masses", map, "name -> lumped mass at a port", false, &lumped_masses},
+     {"ground", list, "ports held in the inertial frame"},
+     {"inputs", map, "name -> input", false, &inputs},
+     {"outputs", map, "name -> output", false, &outputs},
+     {"requires", map, "what the scene is for", false, &requirement},
+     {"run", map, "of a simulation", false, &run}}};
+
+unsigned form_of(const Value& value) {
+  switch (value.kind) {
+    case Value::Kind::scalar:
+      return scalar;
+    case Value::Kind::list:
+      return list;
+    case Value::Kind::map:
+      return map;
+    case Value::Kind::null:
+      break;
+  }
+  return 0;
+}
+
+std::string words(unsigned forms) {
+  std::vector<std::string_view> names;
+  if (forms & scalar) names.push_back("a value");
+  if (forms & list) names.push_back("a list [...]");
+  if (forms & map) names.push_back("a map {key: value}");
+  return fmt::format("{}", fmt::join(names, " or "));
+}
+
+void check_form(const Value& value, const std::string& key, const Key& rule) {
+  const unsigned form = form_of(value);
+  if (form & rule.forms) return;
+  throw InputError(value.place,
+                   fmt::format("'{}' is {}, expected {}", key, form ? words(form) : "empty", words(rule.forms)),
+                   rule.meaning.empty() ? "See the guide, docs/scene.md" : fmt::format("It means: {}", rule.meaning));
+}
+
+void refuse_unknown(const Member& member, const Schema& schema) {
+  std::vector<std::string> known;
+  for (const Key& key : schema.keys) known.emplace_back(key.name);
+  const std::string near = fem::near_miss(member.key, known);
+  throw InputError(
+      member.place, fmt::format("{} has no key '{}'", schema.what, member.key),
+      near.empty() ? fmt::format("Its keys are: {}", fmt::join(known, ", ")) : fmt::format("Did you mean '{}'?", near));
+}
+
+}  // namespace
+
+const Schema& scene_schema() { return scene; }
+
+void validate(const Value& value, const Schema& schema) {
+  for (const Member& member : value.members) {
+    const Key* rule = schema.each;
+    for (const Key& key : schema.keys)
+      if (key.name == member.key) rule = &key;
+    if (!rule) refuse_unknown(member, schema);
+    check_form(member.value, member.key, *rule);
+    if (rule->inside && member.value.kind == Value::Kind::map) validate(member.value, *rule->inside);
+  }
+  for (const Key& key : schema.keys)
+    if (key.required && !value.find(key.name))
+      throw InputError(value.place, fmt::format("{} without '{}'", schema.what, key.name),
+                       fmt::format("Add it: {}", key.meaning));
+}
+
+}  // namespace tenon::assembly
