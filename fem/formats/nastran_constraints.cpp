@@ -1,0 +1,221 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "fem/formats/nastran_draft.hpp"
+
+namespace tenon::fem::nastran {
+namespace {
+
+std::string set_kind(const char* kind, long set) { return fmt::format("{} set {}", kind, set); }
+
+/// Directions of one half (translations or rotations) held in a skew frame: one equation each, reduced so that every
+/// one has its own first term and none of the others' first terms.
+void hold_skew(Model& model, int node, int half, Eigen::Matrix<double, Eigen::Dynamic, 3> rows) {
+  std::array<int, 3> pivot{-1, -1, -1};
+  for (int k = 0; k < rows.rows(); ++k) {
+    int row = 0, column = 0;
+    rows.bottomRows(rows.rows() - k).cwiseAbs().maxCoeff(&row, &column);
+    rows.row(k).swap(rows.row(k + row));
+    rows.row(k) /= rows(k, column);
+    for (int other = 0; other < rows.rows(); ++other)
+      if (other != k) rows.row(other) -= rows(other, column) * rows.row(k);
+    pivot[static_cast<std::size_t>(k)] = column;
+  }
+  for (int k = 0; k < rows.rows(); ++k) {
+    const int first = pivot[static_cast<std::size_t>(k)];
+    LinearConstraint held;
+    held.id = model.node_ids[static_cast<std::size_t>(node)];
+    held.terms.push_back({{node, half + first}, 1.0});
+    for (int j = 0; j < 3; ++j)
+      if (j != first && rows(k, j) != 0.0) held.terms.push_back({{node, half + j}, rows(k, j)});
+    model.constraints.push_back(std::move(held));
+  }
+}
+
+/// Holds directions given in the node's displacement frame.
+void hold(Draft& draft, int node, unsigned components) {
+  const Mat3& axes = draft.axes[static_cast<std::size_t>(node)];
+  for (const int half : {0, 3}) {
+    const unsigned part = components & (0b111U << half);
+    if (const auto basic = basic_directions(part, axes)) {
+      for (int d = half; d < half + 3; ++d)
+        if (*basic >> d & 1) draft.deck.model.supports.push_back({{node, d}});
+      continue;
+    }
+    Eigen::Matrix<double, Eigen::Dynamic, 3> rows(0, 3);
+    for (int d = 0; d < 3; ++d) {
+      if ((part >> (half + d) & 1U) == 0) continue;
+      rows.conservativeResize(rows.rows() + 1, 3);
+      rows.bottomRows<1>() = axes.col(d).transpose();
+    }
+    hold_skew(draft.deck.model, node, half, rows);
+  }
+}
+
+/// One MPC equation as it grows; equal dofs are added up.
+struct Equation {
+  LinearConstraint constraint;
+
+  void add(const Dof& dof, double coefficient) {
+    if (coefficient == 0.0) return;
+    for (auto& term : constraint.terms)
+      if (term.dof.node == dof.node && term.dof.direction == dof.direction) {
+        term.coefficient += coefficient;
+        return;
+      }
+    constraint.terms.push_back({dof, coefficient});
+  }
+  void lead_with(std::size_t term) {
+    std::rotate(constraint.terms.begin(), constraint.terms.begin() + static_cast<std::ptrdiff_t>(term),
+                constraint.terms.begin() + static_cast<std::ptrdiff_t>(term) + 1);
+  }
+};
+
+/// The node that stands for a scalar point; it lies at the first grid of the equation that names it.
+int scalar_node(Draft& draft, const Card& card, long id) {
+  if (const auto found = draft.scalar_node.find(id); found != draft.scalar_node.end()) return found->second;
+  Vec3 place = Vec3::Zero();
+  for (int k = 2; k <= card.size(); k += (k % 8 == 2 ? 3 : 5)) {
+    const auto grid = draft.node_of.find(parse_integer(card.at(k)).value_or(0));
+    if (grid == draft.node_of.end()) continue;
+    place = draft.deck.model.nodes[static_cast<std::size_t>(grid->second)];
+    break;
+  }
+  const int node = draft.make_node(place, id);
+  draft.scalar_node.emplace(id, node);
+  return node;
+}
+
+// SID G1 C1 A1 G2 C2 A2 - | - G3 C3 A3 G4 C4 A4 - | ...
+void equation(Draft& draft, const Card& card) {
+  Equation sum;
+  sum.constraint.id = card.id(1, "SID");
+  std::optional<std::size_t> new_scalar;  // a scalar's first equation defines it
+  bool q_scalar = false, structure = false;
+  for (int k = 2; k <= card.size(); k += (k % 8 == 2 ? 3 : 5)) {
+    if (card.blank(k) && card.blank(k + 1) && card.blank(k + 2)) continue;
+    const long id = card.id(k, "G");
+    const double coefficient = card.real(k + 2, "A");
+    if (coefficient == 0.0 && k == 2) card.fail(4, "A1", "a number other than zero");
+    const unsigned bits = card.components(k + 1, "C");
+    if (draft.scalars.contains(id)) {
+      if (bits > 1) card.fail(k + 1, "C", "0, 1 or a blank for a scalar point");
+      const bool known = draft.scalar_node.contains(id);
+      const int node = scalar_node(draft, card, id);
+      q_scalar = q_scalar || draft.scalars.in_q_set(id);
+      const bool free = !draft.scalars.in_q_set(id) && !draft.scalars.is_held(id);
+      if (!known && free && !new_scalar) new_scalar = sum.constraint.terms.size();
+      sum.add({node, 0}, coefficient);
+      continue;
+    }
+    const int node = draft.node(card, k, "G");
+    const auto n = static_cast<std::size_t>(node);
+    int direction = 0;
+    while (direction < 6 && bits != 1U << direction) ++direction;
+    if (direction == 6) card.fail(k + 1, "C", "one digit 1 to 6");
+    const int half = direction / 3 * 3;
+    const Vec3 axis = draft.axes[n].col(direction - half);
+    const std::size_t start = sum.constraint.terms.size();
+    if (const auto along = basic_axis(axis)) {
+      sum.add({node, half + along->direction}, coefficient * along->sign);
+      structure = structure || draft.carries[n] || (draft.governed[n] >> (half + along->direction) & 1U);
+    } else {
+      for (int d = 0; d < 3; ++d) sum.add({node, half + d}, coefficient * axis[d]);
+      structure = structure || draft.carries[n] || (draft.governed[n] >> half & 0b111U);
+    }
+    if (k == 2) {  // the dependent dof: of a skew direction its largest part
+      const auto& terms = sum.constraint.terms;
+      const auto largest = std::max_element(
+          terms.begin() + static_cast<std::ptrdiff_t>(start), terms.end(),
+          [](const auto& a, const auto& b) { return std::abs(a.coefficient) < std::abs(b.coefficient); });
+      sum.lead_with(static_cast<std::size_t>(largest - terms.begin()));
+    }
+  }
+  if (q_scalar && structure)
+    card.refuse(0,
+                fmt::format("of set {} would give a scalar point of the q-set stiffness or mass of the structure",
+                            sum.constraint.id),
+                "Join the q-set only to grids that no element uses (recovery points), or do not select this set");
+  if (new_scalar) sum.lead_with(*new_scalar);
+  std::erase_if(sum.constraint.terms, [](const auto& term) { return term.coefficient == 0.0; });
+  if (sum.constraint.terms.empty()) card.refuse(0, "says 0 = 0: its terms cancel", "Correct or remove the equation");
+  draft.deck.model.constraints.push_back(std::move(sum.constraint));
+}
+
+}  // namespace
+
+std::vector<Card> selected(Draft& draft, const char* kind, const std::vector<Card>& cards,
+                           const std::optional<Choice>& choice) {
+  std::set<long> wanted, present;
+  Register known_adds(std::string(kind) + "ADD");
+  bool by_add = false;
+  for (const Card& card : draft.take(std::string(kind) + "ADD")) {
+    const long id = card.id(1, "SID");
+    if (!known_adds.admit(id, card, draft.losses)) continue;
+    const bool chosen = choice && choice->set == id;
+    if (!chosen) {
+      draft.losses.add(fmt::format("{}ADD {}", kind, id), "set that is not selected");
+      continue;
+    }
+    by_add = true;
+    for (const Range& range : draft.ranges(card, 2)) wanted.insert(range.first);
+  }
+  if (choice && !by_add) wanted.insert(choice->set);
+
+  std::vector<Card> result;
+  for (const Card& card : cards) {
+    const long id = card.id(1, "SID");
+    present.insert(id);
+    if (wanted.contains(id))
+      result.push_back(card);
+    else if (choice || draft.selection.has_case_control)
+      draft.losses.add(set_kind(kind, id), "set that is not selected");
+    else
+      draft.losses.add_physical(set_kind(kind, id), "there is no case control to select it", card.place());
+  }
+  for (const long id : wanted)
+    if (!present.contains(id))
+      throw InputError(choice->place,
+                       fmt::format("{} set {} is selected, but no {} card has that number", kind, id, kind),
+                       "Select a set that exists, or none");
+  return result;
+}
+
+void read_supports(Draft& draft) {
+  std::vector<Card> cards = draft.take("SPC");
+  for (const Card& card : draft.take("SPC1")) cards.push_back(card);
+  std::vector<unsigned> held = draft.permanent_spc;
+  const auto add = [&](const Card& card, const Range& range, unsigned bits, const char* label, int field) {
+    if (draft.scalars.any_in(range)) draft.scalars.held.push_back(range);
+    for (const int node : draft.nodes_in(range, card)) {
+      if (bits == 0) card.fail(field, label, "directions as digits 1 to 6");
+      held[static_cast<std::size_t>(node)] |= bits;
+    }
+  };
+  for (const Card& card : selected(draft, "SPC", cards, draft.selection.spc)) {
+    if (card.name() == "SPC1") {
+      for (const Range& range : draft.ranges(card, 3)) add(card, range, card.components(2, "C"), "C", 2);
+      continue;
+    }
+    for (int i = 2; i <= card.size(); i += 3) {
+      if (card.blank(i) && card.blank(i + 1)) continue;
+      const long id = card.id(i, "G");
+      add(card, {id, id}, card.components(i + 1, "C"), "C", i + 1);
+      if (card.real(i + 2, "D", 0.0) != 0.0) draft.losses.add("SPC D", "enforced motion is a load: the dof is held");
+    }
+  }
+  for (std::size_t node = 0; node < held.size(); ++node)
+    if (held[node] != 0) hold(draft, static_cast<int>(node), held[node]);
+}
+
+void read_equations(Draft& draft) {
+  for (const Card& card : selected(draft, "MPC", draft.take("MPC"), draft.selection.mpc)) equation(draft, card);
+  for (const auto& [id, node] : draft.scalar_node)
+    if (draft.scalars.is_held(id)) draft.deck.model.supports.push_back({{node, 0}});
+}
+
+}  // namespace tenon::fem::nastran

@@ -1,0 +1,69 @@
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "fem/formats/nastran_draft.hpp"
+
+namespace tenon::fem::nastran {
+namespace {
+
+/// Cards that say nothing about stiffness or mass, with what they are for. A name that ends in '*' stands for all that
+/// begin so.
+struct Harmless {
+  std::string_view names;
+  std::string_view note;
+};
+
+constexpr std::array<Harmless, 9> harmless{{
+    {"EIGR EIGRL EIGB EIGC EIGP", "how Nastran would solve: the program has its own options"},
+    {"FORCE FORCE1 FORCE2 MOMENT MOMENT1 MOMENT2 GRAV ACCEL ACCEL1 LOAD PLOAD PLOAD1 PLOAD2 PLOAD4 PLOADX1 RFORCE "
+     "SLOAD "
+     "SPCD DEFORM TEMP TEMPD TEMPRB TEMPP1 TEMPF LSEQ DAREA DLOAD DELAY DPHASE TLOAD1 TLOAD2 RLOAD1 RLOAD2 ACSRCE "
+     "RANDPS RANDT1 TIC",
+     "loads are no part of K and M"},
+    {"TABLED* TABLEM* TABLES1 TABLEST TABRND* TABDMP1 MATT1 MATS1 CREEP", "tables and what depends on them"},
+    {"FREQ FREQ1 FREQ2 FREQ3 FREQ4 FREQ5 TSTEP TSTEPNL NLPARM NLPCI NLSTEP RCROSS",
+     "steps of a solution that is not run here"},
+    {"SUPORT SUPORT1 SUPAX", "the rigid motions are found without being named"},
+    {"CSET CSET1 OMIT OMIT1 USET USET1 SESET", "a partition of the dofs for Nastran's own reduction"},
+    {"PLOTEL PLOTEL3 PLOTEL4 SET1 SET3 GROUP ECHOON ECHOOFF DTI MDLPRM", "pictures, sets and output"},
+    {"SEQGP EPOINT NOLIN* TF", "numbering and control systems"},
+    {"DESVAR DRESP* DCONSTR DCONADD DVPREL* DVMREL* DVCREL* DVGRID DVSHAP DOPTPRM DLINK DEQATN DSCREEN DTABLE DESGLB",
+     "optimisation"},
+}};
+
+bool listed(std::string_view names, std::string_view card) {
+  while (!names.empty()) {
+    const std::size_t end = std::min(names.find(' '), names.size());
+    std::string_view name = names.substr(0, end);
+    names.remove_prefix(std::min(end + 1, names.size()));
+    if (name.ends_with('*') ? card.starts_with(name.substr(0, name.size() - 1)) : card == name) return true;
+  }
+  return false;
+}
+
+constexpr std::string_view structural =
+    "CROD CONROD CTUBE CBEAM CBEAM3 CBEND CBUSH CBUSH1D CELAS* CSHEAR CQUAD8 CQUADR CQUAD CTRIA6 CTRIAR CTETRA CHEXA "
+    "CPENTA CPYRAM CGAP CWELD CFAST CMASS* CONM1 CVISC CDAMP* CCONEAX CRAC* PROD PTUBE PBEAM PBEAML PBARL PBCOMP PBEND "
+    "PBUSH PBUSH1D PELAS PSHEAR PCOMP PCOMPG PSOLID PGAP PMASS MAT2 MAT3 MAT8 MAT9 MAT10 RBAR RBAR1 RBE1 RROD RTRPLT "
+    "RSPLINE RSSCON RJOINT GENEL DMIG NSM NSM1 NSML NSML1 NSMADD SPCAX RELEASE SEBULK SECONCT SEELT SEMPLN SELOC "
+    "CSUPER BOLT BSURF BCTSET BGSET MAT4 PLPLANE PAABSF CAABSF CHACAB CFLUID2";
+
+}  // namespace
+
+void classify_rest(Draft& draft) {
+  for (const auto& [name, cards] : draft.cards)
+    for (const Card& card : cards) {
+      const auto group = std::ranges::find_if(harmless, [&](const Harmless& h) { return listed(h.names, name); });
+      if (group != harmless.end())
+        draft.losses.add(name, std::string(group->note));
+      else if (listed(structural, name))
+        draft.losses.add_physical(name, "it adds or defines stiffness or mass and is not read", card.place());
+      else
+        draft.losses.add_physical(name.empty() ? "a card without a name" : name,
+                                  "it is no card that is known here, so what it does cannot be told", card.place());
+    }
+  draft.cards.clear();
+}
+
+}  // namespace tenon::fem::nastran

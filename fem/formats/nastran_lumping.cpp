@@ -1,0 +1,106 @@
+#include <array>
+#include <cmath>
+
+#include "fem/formats/nastran_draft.hpp"
+
+namespace tenon::fem::nastran {
+namespace {
+
+/// Copies of materials and sections without mass, made when first needed.
+template <class T>
+class Massless {
+ public:
+  Massless(std::vector<T>& all, double T::*mass) : all_(all), mass_(mass), copy_(all.size(), -1) {}
+
+  int of(int index) {
+    if (all_[static_cast<std::size_t>(index)].*mass_ == 0.0) return index;
+    int& copy = copy_[static_cast<std::size_t>(index)];
+    if (copy < 0) {
+      copy = static_cast<int>(all_.size());
+      T light = all_[static_cast<std::size_t>(index)];
+      light.name += ", mass lumped";
+      light.*mass_ = 0.0;
+      all_.push_back(std::move(light));
+    }
+    return copy;
+  }
+
+ private:
+  std::vector<T>& all_;
+  double T::*mass_;
+  std::vector<int> copy_;
+};
+
+/// ∫ N_i dA over a bilinear quadrilateral, 2×2 Gauss points.
+std::array<double, 4> nodal_areas(const std::array<Vec3, 4>& x) {
+  std::array<double, 4> areas{};
+  const double g = 1.0 / std::sqrt(3.0);
+  for (const double r : {-g, g})
+    for (const double s : {-g, g}) {
+      const std::array<double, 4> N{0.25 * (1 - r) * (1 - s), 0.25 * (1 + r) * (1 - s), 0.25 * (1 + r) * (1 + s),
+                                    0.25 * (1 - r) * (1 + s)};
+      const Vec3 x_r = 0.25 * ((1 - s) * (x[1] - x[0]) + (1 + s) * (x[2] - x[3]));
+      const Vec3 x_s = 0.25 * ((1 - r) * (x[3] - x[0]) + (1 + r) * (x[2] - x[1]));
+      const double dA = x_r.cross(x_s).norm();
+      for (std::size_t i = 0; i < 4; ++i) areas[i] += N[i] * dA;
+    }
+  return areas;
+}
+
+std::array<double, 3> nodal_areas(const std::array<Vec3, 3>& x) {
+  const double third = (x[1] - x[0]).cross(x[2] - x[0]).norm() / 6.0;
+  return {third, third, third};
+}
+
+struct Lumper {
+  Model& model;
+  Massless<Material> materials{model.materials, &Material::rho};
+  Massless<BeamSection> beam_sections{model.beam_sections, &BeamSection::nsm};
+  Massless<ShellSection> shell_sections{model.shell_sections, &ShellSection::nsm};
+  std::vector<Element> masses;
+
+  const Vec3& at(int node) const { return model.nodes[static_cast<std::size_t>(node)]; }
+  void put(int node, double mass, const Vec3& offset, long id) {
+    if (mass != 0.0) masses.emplace_back(PointMass{node, mass, Mat3::Zero(), offset, id});
+  }
+
+  void operator()(Beam& beam) {
+    const auto& section = model.beam_sections[static_cast<std::size_t>(beam.section)];
+    const double rho = model.materials[static_cast<std::size_t>(beam.material)].rho;
+    const double length = (at(beam.nodes[1]) + beam.offsets[1] - at(beam.nodes[0]) - beam.offsets[0]).norm();
+    const double half = 0.5 * (rho * section.A + section.nsm) * length;
+    put(beam.nodes[0], half, beam.offsets[0], beam.id);
+    put(beam.nodes[1], half, beam.offsets[1], beam.id);
+    beam.section = beam_sections.of(beam.section);
+    beam.material = materials.of(beam.material);
+  }
+
+  template <class Shell>
+  void lump_shell(Shell& shell) {
+    const auto& section = model.shell_sections[static_cast<std::size_t>(shell.section)];
+    const double rho = model.materials[static_cast<std::size_t>(shell.material)].rho;
+    std::array<Vec3, std::tuple_size_v<decltype(shell.nodes)>> corners;
+    for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = at(shell.nodes[i]);
+    const auto areas = nodal_areas(corners);
+    for (std::size_t i = 0; i < corners.size(); ++i)
+      put(shell.nodes[i], (rho * section.thickness + section.nsm) * areas[i], Vec3::Zero(), shell.id);
+    shell.section = shell_sections.of(shell.section);
+    shell.material = materials.of(shell.material);
+  }
+  void operator()(Quad4& quad) { lump_shell(quad); }
+  void operator()(Tria3& triangle) { lump_shell(triangle); }
+  void operator()(PointMass&) {}
+  void operator()(Spring&) {}
+};
+
+}  // namespace
+
+void lump_masses(Draft& draft) {
+  if (draft.deck.coupled_mass) return;
+  Lumper lumper{.model = draft.deck.model, .masses = {}};
+  auto& elements = draft.deck.model.elements;
+  for (Element& element : elements) std::visit(lumper, element);
+  elements.insert(elements.end(), lumper.masses.begin(), lumper.masses.end());
+}
+
+}  // namespace tenon::fem::nastran

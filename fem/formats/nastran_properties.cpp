@@ -1,0 +1,142 @@
+#include "fem/formats/nastran_properties.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace tenon::fem::nastran {
+namespace {
+
+/// κ that stands for "rigid in transverse shear" in a shell: a thousandth of the usual shear flexibility is left.
+constexpr double rigid_shear_ratio = 1000.0;
+
+using MaterialIndex = std::unordered_map<long, int>;
+
+// G = E / (2 (1 + ν)) gives the third of E, G, ν; with E or G alone the other two are as in the manuals
+Material elastic(const Card& card) {
+  Material m;
+  m.name = fmt::format("mat1 {}", card.id(1, "MID"));
+  const bool has_e = !card.blank(2), has_g = !card.blank(3), has_nu = !card.blank(4);
+  m.E = card.non_negative(2, "E", 0.0);
+  m.G = card.non_negative(3, "G", 0.0);
+  m.nu = card.real(4, "NU", 0.0);
+  m.rho = card.non_negative(5, "RHO", 0.0);
+  if (!has_e && !has_g) card.fail(2, "E", "a number here or in field G: a material needs one of the two");
+  if (!has_g && has_nu) m.G = m.E / (2.0 * (1.0 + m.nu));
+  if (!has_e && has_nu) m.E = 2.0 * (1.0 + m.nu) * m.G;
+  if (!has_nu && has_e && has_g) {
+    if (!(m.G > 0.0)) card.fail(3, "G", "a number above zero, or a blank");
+    m.nu = m.E / (2.0 * m.G) - 1.0;
+  }
+  return m;
+}
+
+MaterialIndex read_materials(Draft& draft) {
+  MaterialIndex index;
+  Register known("MAT1");
+  for (const Card& card : draft.take("MAT1")) {
+    const long id = card.id(1, "MID");
+    if (!known.admit(id, card, draft.losses)) continue;
+    const Material m = elastic(card);
+    const bool all_three = !card.blank(2) && !card.blank(3) && !card.blank(4);
+    if (all_three && std::abs(m.E - 2.0 * (1.0 + m.nu) * m.G) > 0.01 * m.E)
+      draft.losses.add("MAT1", "E, G and NU given, not those of an isotropic material: each is used as it stands");
+    if (card.real(8, "GE", 0.0) != 0.0) draft.losses.add("MAT1 GE", "structural damping is no part of K and M");
+    index.emplace(id, static_cast<int>(draft.deck.model.materials.size()));
+    draft.deck.model.materials.push_back(m);
+  }
+  return index;
+}
+
+int material(const MaterialIndex& materials, const Card& card, int field, const char* label) {
+  const auto found = materials.find(card.id(field, label));
+  if (found == materials.end())
+    card.refuse(field, fmt::format("field {} names material {}, which is not defined by a MAT1", label, card.at(field)),
+                "Add the MAT1 card or correct the number");
+  return found->second;
+}
+
+void read_bars(Draft& draft, const MaterialIndex& materials, Properties& properties) {
+  Register known("PBAR");
+  for (const Card& card : draft.take("PBAR")) {
+    const long id = card.id(1, "PID");
+    if (!known.admit(id, card, draft.losses)) continue;
+    BeamSection s;
+    s.name = fmt::format("pbar {}", id);
+    s.A = card.non_negative(3, "A", 0.0);
+    s.Iz = card.non_negative(4, "I1", 0.0);  // plane 1 is the element's x–y plane
+    s.Iy = card.non_negative(5, "I2", 0.0);
+    s.J = card.non_negative(6, "J", 0.0);
+    s.nsm = card.real(7, "NSM", 0.0);
+    s.kappa_y = card.non_negative(17, "K1", 0.0);
+    s.kappa_z = card.non_negative(18, "K2", 0.0);
+    s.Iyz = card.real(19, "I12", 0.0);
+    if (s.Iyz * s.Iyz > s.Iy * s.Iz)
+      card.fail(19, "I12", fmt::format("I12² at most I1·I2 = {:g}, as of every real section", s.Iy * s.Iz));
+    if (s.Iyz != 0.0 && (s.kappa_y != 0.0 || s.kappa_z != 0.0)) {
+      draft.losses.add("PBAR", "K1 and K2 have no effect beside I12, as in Nastran");
+      s.kappa_y = s.kappa_z = 0.0;
+    }
+    properties.bars.emplace(
+        id, Property{static_cast<int>(draft.deck.model.beam_sections.size()), material(materials, card, 2, "MID")});
+    draft.deck.model.beam_sections.push_back(s);
+  }
+}
+
+void read_shells(Draft& draft, const MaterialIndex& materials, Properties& properties) {
+  Register known("PSHELL");
+  for (const Card& card : draft.take("PSHELL")) {
+    const long id = card.id(1, "PID");
+    if (!known.admit(id, card, draft.losses)) continue;
+    if (card.blank(2)) card.fail(2, "MID1", "a material: a shell without membrane stiffness is not read");
+    const int membrane = material(materials, card, 2, "MID1");
+    const auto& all = draft.deck.model.materials;
+    const auto get = [&](int field, const char* label) -> const Material& {
+      return all[static_cast<std::size_t>(material(materials, card, field, label))];
+    };
+    const Material& first = all[static_cast<std::size_t>(membrane)];
+    ShellSection s;
+    s.name = fmt::format("pshell {}", id);
+    s.thickness = card.positive(3, "T");
+    s.nsm = card.real(8, "NSM", 0.0);
+    if (card.blank(4)) {
+      s.bending_ratio = s.shear_ratio = 0.0;
+      if (!card.blank(6)) card.fail(6, "MID3", "a blank: without MID2 there is no bending to carry the shear");
+    } else {
+      const Material& bending = get(4, "MID2");
+      if (std::abs(bending.nu - first.nu) > 1e-9)
+        card.fail(4, "MID2", "a material with the Poisson's ratio of MID1: others are not read");
+      s.bending_ratio = card.non_negative(5, "12I/T**3", 1.0) * bending.E / first.E;
+      s.shear_ratio =
+          card.blank(6) ? rigid_shear_ratio : card.non_negative(7, "TS/T", 5.0 / 6.0) * get(6, "MID3").G / first.G;
+    }
+    if (!std::isfinite(s.bending_ratio) || !std::isfinite(s.shear_ratio))
+      card.fail(2, "MID1", "a material with E and G above zero");
+    if (!card.blank(11) && card.id(11, "MID4") != card.id(2, "MID1"))
+      draft.losses.add_physical("PSHELL MID4", "coupling of membrane and bending", card.place(11));
+    properties.shells.emplace(id, Property{static_cast<int>(draft.deck.model.shell_sections.size()), membrane});
+    draft.deck.model.shell_sections.push_back(s);
+  }
+}
+
+}  // namespace
+
+const Property& Properties::find(const std::unordered_map<long, Property>& properties, const char* kind,
+                                 const Card& card, int field) {
+  const long id = card.id(field, "PID", card.id(1, "EID"));
+  const auto found = properties.find(id);
+  if (found == properties.end())
+    card.refuse(field, fmt::format("field PID names property {}, which is not defined by a {}", id, kind),
+                fmt::format("Add the {} card or correct the number", kind));
+  return found->second;
+}
+
+Properties read_properties(Draft& draft) {
+  Properties properties;
+  const MaterialIndex materials = read_materials(draft);
+  read_bars(draft, materials, properties);
+  read_shells(draft, materials, properties);
+  return properties;
+}
+
+}  // namespace tenon::fem::nastran

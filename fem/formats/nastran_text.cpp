@@ -1,0 +1,340 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include "fem/formats/nastran_cards.hpp"
+
+namespace tenon::fem::nastran {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int columns_of_name = 8, columns_of_line = 80;
+
+bool starts_with_word(std::string_view line, std::string_view word) {
+  if (line.size() < word.size() || upper(line.substr(0, word.size())) != word) return false;
+  return line.size() == word.size() || !std::isalnum(static_cast<unsigned char>(line[word.size()]));
+}
+
+/// "BEGIN BULK" in any spacing; what follows BULK is `rest`.
+bool is_begin(std::string_view line, std::string* rest = nullptr) {
+  if (!starts_with_word(line, "BEGIN")) return false;
+  std::string_view tail = trim(line.substr(5));
+  if (!tail.empty() && tail.front() == ',') tail = trim(tail.substr(1));
+  if (starts_with_word(tail, "BULK")) tail = trim(tail.substr(4));
+  if (rest) *rest = upper(tail);
+  return true;
+}
+
+std::string_view without_comment(std::string_view line) { return line.substr(0, line.find('$')); }
+
+std::string with_tabs_expanded(std::string_view line) {
+  std::string wide;
+  for (const char c : line) {
+    if (c == '\t')
+      wide.append(columns_of_name - wide.size() % columns_of_name, ' ');
+    else
+      wide += c;
+  }
+  return wide;
+}
+
+/// The name of a continuation mark: "+A1", "*A1" → "A1".
+std::string_view mark_name(std::string_view mark) {
+  if (!mark.empty() && (mark.front() == '+' || mark.front() == '*')) mark.remove_prefix(1);
+  return trim(mark);
+}
+
+std::string read_file(const fs::path& path, const Place& asked_at) {
+  std::error_code ignored;
+  if (!fs::exists(path, ignored))
+    throw InputError(asked_at, "the file '" + path.string() + "' does not exist", "Check the name and the folder");
+  if (!fs::is_regular_file(path, ignored))
+    throw InputError(asked_at, "'" + path.string() + "' is not a file", "Name the Nastran deck itself");
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw InputError(asked_at, "the file '" + path.string() + "' cannot be opened", "Check its permissions");
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Refuses what is no text: control characters other than white space.
+void require_text(const std::string& content, const std::string& file) {
+  const auto bad = std::ranges::find_if(content, [](unsigned char c) { return c < 32 && !std::isspace(c) && c != 26; });
+  if (bad == content.end()) return;
+  const long line = 1 + std::count(content.begin(), bad, '\n');
+  throw InputError({file, line, 0},
+                   fmt::format("found the byte {:#04x}, expected text: this is not a Nastran bulk data file",
+                               static_cast<unsigned char>(*bad)),
+                   "Give the deck as text (.bdf, .dat, .nas), not a result or database file");
+}
+
+/// Lines of one file by number.
+struct Lines {
+  std::string_view rest;
+  int number = 0;
+
+  bool next(std::string_view& line) {
+    if (rest.empty()) return false;
+    const std::size_t end = rest.find('\n');
+    line = rest.substr(0, end);
+    rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
+    ++number;
+    return true;
+  }
+};
+
+enum class Section { executive, case_control, bulk, done };
+
+class Reader {
+ public:
+  Text read(const fs::path& path) {
+    deck_folder_ = path.parent_path();
+    file(path, {path.string(), 0, 0});
+    close_card();
+    if (section_ == Section::executive || section_ == Section::case_control)
+      throw InputError(text_.end, "the file ends before BEGIN BULK: no bulk data was found",
+                       "The file may be cut off; give the whole deck, or bulk data alone without CEND");
+    if (text_.cards.empty())
+      throw InputError({path.string(), 0, 0}, "the file holds no bulk data card", "Check that it is the right file");
+    return std::move(text_);
+  }
+
+ private:
+  void file(const fs::path& path, const Place& asked_at);
+  void include(std::string_view statement, Lines& lines);
+  void case_line(std::string_view line, Lines& lines);
+  void bulk_line(std::string_view line, Lines& lines);
+  void free_fields(std::string_view line);
+  void fixed_fields(std::string_view line);
+  void begin_line(std::string_view name, std::string_view mark, int column);
+  void add(std::string_view text, int column) { text_.fields.push_back({trim(text), file_, line_, column}); }
+  void close_card();
+  Place here(int column = 0) const { return {text_.files[static_cast<std::size_t>(file_)], line_, column}; }
+
+  Text text_;
+  Section section_ = Section::bulk;
+  fs::path deck_folder_;
+  std::vector<fs::path> open_files_;
+  std::set<fs::path> seen_files_;
+  int file_ = 0, line_ = 0;
+  bool card_open_ = false;
+  std::string mark_;  ///< continuation mark that the open card's last line ended with
+  bool large_ = false;
+};
+
+void Reader::file(const fs::path& path, const Place& asked_at) {
+  std::error_code ignored;
+  const fs::path canonical = fs::weakly_canonical(path, ignored);
+  if (std::ranges::find(open_files_, canonical) != open_files_.end())
+    throw InputError(asked_at, "'" + path.string() + "' includes itself", "Remove the INCLUDE that closes the circle");
+  if (!seen_files_.insert(canonical).second)
+    throw InputError(asked_at, "'" + path.string() + "' is included a second time, all its cards would be doubled",
+                     "Remove one of the INCLUDE statements");
+  const std::string& content = text_.storage.emplace_back(read_file(path, asked_at));
+  const int outer_file = file_, outer_line = line_;
+  file_ = static_cast<int>(text_.files.size());
+  text_.files.push_back(path.string());
+  require_text(content, path.string());
+  const bool top = open_files_.empty();
+  open_files_.push_back(canonical);
+
+  if (top) {  // which sections does the deck have?
+    std::string_view line;
+    for (Lines lines{content}; lines.next(line);) {
+      const std::string_view statement = trim(without_comment(line));
+      const bool cend = starts_with_word(statement, "CEND");
+      if (!cend && !is_begin(statement)) continue;
+      section_ = cend ? Section::executive : Section::case_control;
+      text_.has_case_control = true;
+      break;
+    }
+  }
+
+  std::string_view line;
+  for (Lines lines{content}; section_ != Section::done && lines.next(line);) {
+    line_ = lines.number;
+    text_.end = here();
+    const std::string_view statement = trim(line);
+    if (statement.empty() || statement.front() == '$') continue;
+    if (section_ == Section::executive) {
+      if (starts_with_word(statement, "CEND")) section_ = Section::case_control;
+    } else if (section_ == Section::case_control) {
+      case_line(statement, lines);
+    } else {
+      bulk_line(line, lines);
+    }
+  }
+  open_files_.pop_back();
+  file_ = outer_file;
+  line_ = outer_line;
+}
+
+// INCLUDE 'path', "path" or path; a quoted path may run over several lines
+void Reader::include(std::string_view statement, Lines& lines) {
+  const Place place = here();
+  std::string_view tail = trim(statement.substr(7));
+  if (!tail.empty() && tail.front() == '=') tail = trim(tail.substr(1));
+  std::string name;
+  if (!tail.empty() && (tail.front() == '\'' || tail.front() == '"')) {
+    const char quote = tail.front();
+    std::string_view piece = tail.substr(1);
+    while (piece.find(quote) == std::string_view::npos) {
+      name += trim(piece);
+      if (!lines.next(piece))
+        throw InputError(place, "INCLUDE opens a quote that is never closed", "Close the quote after the file name");
+    }
+    name += trim(piece.substr(0, piece.find(quote)));
+  } else {
+    name = std::string(trim(without_comment(tail)));
+  }
+  if (name.empty()) throw InputError(place, "INCLUDE names no file", "Write INCLUDE 'file name'");
+
+  fs::path path(name);
+  if (path.is_relative()) {
+    std::error_code ignored;
+    const fs::path beside = fs::path(here().file).parent_path() / name;
+    path = fs::exists(beside, ignored) || !fs::exists(deck_folder_ / name, ignored) ? beside : deck_folder_ / name;
+  }
+  file(path, place);
+}
+
+void Reader::case_line(std::string_view line, Lines& lines) {
+  if (starts_with_word(line, "INCLUDE")) return include(line, lines);
+  std::string rest;
+  if (is_begin(line, &rest)) {
+    const std::string_view tail = trim(without_comment(rest));
+    if (!tail.empty())
+      throw InputError(here(),
+                       fmt::format("found BEGIN BULK {}: parts and superelements in one file are not read", tail),
+                       "Give each part as a deck of its own");
+    section_ = Section::bulk;
+    return;
+  }
+  const std::string_view statement = trim(without_comment(line));
+  const bool title = starts_with_word(statement, "TITLE") || starts_with_word(statement, "LABEL") ||
+                     starts_with_word(statement, "SUBTITLE");
+  if (!statement.empty()) text_.case_control.push_back({title ? std::string(statement) : upper(statement), here()});
+}
+
+void Reader::bulk_line(std::string_view line, Lines& lines) {
+  const std::string_view statement = trim(line);
+  if (starts_with_word(statement, "INCLUDE")) {
+    close_card();
+    return include(statement, lines);
+  }
+  if (starts_with_word(statement, "ENDDATA")) {
+    close_card();
+    text_.ended = true;
+    section_ = Section::done;
+    return;
+  }
+  std::string rest;
+  if (is_begin(statement, &rest)) {
+    if (!trim(without_comment(rest)).empty())
+      throw InputError(
+          here(),
+          "found " + upper(trim(without_comment(statement))) + ": parts and superelements in one file are not read",
+          "Give each part as a deck of its own");
+    return;
+  }
+  line = without_comment(line);
+  while (!line.empty() && std::isspace(static_cast<unsigned char>(line.back()))) line.remove_suffix(1);
+  if (line.empty()) return;
+  if (line.find(',') != std::string_view::npos)
+    free_fields(line);
+  else if (line.find('\t') != std::string_view::npos)
+    fixed_fields(text_.storage.emplace_back(with_tabs_expanded(line)));
+  else
+    fixed_fields(line);
+}
+
+void Reader::free_fields(std::string_view line) {
+  const auto column = [&, start = line.data()](std::string_view part) {
+    return static_cast<int>(part.data() - start) + 1;
+  };
+  std::vector<std::string_view> parts;
+  for (std::string_view rest = line;;) {
+    const std::size_t comma = rest.find(',');
+    parts.push_back(trim(rest.substr(0, comma)));
+    if (parts.back().empty()) parts.back() = rest.substr(0, 0);
+    if (comma == std::string_view::npos) break;
+    rest.remove_prefix(comma + 1);
+  }
+  const std::string_view name = parts[0];
+  const std::size_t data = !name.empty() && (name.back() == '*' || name.front() == '*') ? 4 : 8;
+  for (std::size_t i = data + 1; i < parts.size(); ++i) {
+    if (parts[i].empty()) continue;
+    const bool mark = i == data + 1 && (parts[i].front() == '+' || parts[i].front() == '*') && !parse_real(parts[i]);
+    if (!mark)
+      throw InputError(here(column(parts[i])),
+                       fmt::format("found '{}' after the {} data fields of a free-field line", parts[i], data),
+                       "Go on in a continuation line that begins with a comma or a plus sign");
+  }
+  begin_line(name, parts.size() > data + 1 ? parts[data + 1] : std::string_view{}, column(name));
+  for (std::size_t i = 1; i <= data; ++i) {
+    if (i < parts.size())
+      add(parts[i], column(parts[i]));
+    else
+      add({}, static_cast<int>(line.size()));
+  }
+}
+
+void Reader::fixed_fields(std::string_view line) {
+  const auto part = [&](int from, int width) {
+    return static_cast<std::size_t>(from) < line.size()
+               ? line.substr(static_cast<std::size_t>(from), static_cast<std::size_t>(width))
+               : std::string_view{};
+  };
+  const std::string_view name = trim(part(0, columns_of_name));
+  const bool large = !name.empty() && (name.back() == '*' || name.front() == '*');
+  const int width = large ? 16 : 8;
+  begin_line(name, trim(part(columns_of_line - 8, 8)), 1);
+  for (int from = columns_of_name; from < columns_of_line - 8; from += width) add(part(from, width), from + 1);
+}
+
+// Opens a card, or goes on with the open one when the name is blank or a continuation mark.
+void Reader::begin_line(std::string_view name, std::string_view mark, int column) {
+  const bool large = !name.empty() && (name.back() == '*' || name.front() == '*');
+  const bool continues = name.empty() || name.front() == '+' || name.front() == '*';
+  if (continues) {
+    if (!card_open_)
+      throw InputError(here(column), "found a continuation line without a card before it",
+                       "Put the continuation right behind the card it continues; a card's name begins in column 1");
+    if (!mark_name(name).empty() && mark_name(name) != mark_name(mark_))
+      throw InputError(
+          here(column),
+          fmt::format("found the continuation '{}', but the card before it ends with the mark '{}'", name, mark_),
+          "Put each continuation right behind its card (sorted continuations are not read)");
+    CardSpan& card = text_.cards.back();
+    // a line of four large fields is half a line of eight: its other half comes only as another large line
+    const std::size_t filled = text_.fields.size() - card.first_field;
+    if (filled % 8 != 0 && !(large && large_)) add({}, column), add({}, column), add({}, column), add({}, column);
+  } else {
+    close_card();
+    if (name.front() == '=' || std::isdigit(static_cast<unsigned char>(name.front())))
+      throw InputError(here(column), fmt::format("found '{}' where a card's name was expected", name),
+                       "Replication ('=') is not read; write every card out, its name in column 1");
+    std::string plain = upper(large ? trim(name.substr(0, name.size() - 1)) : name);
+    text_.cards.push_back({std::move(plain), text_.fields.size(), 0, file_, line_});
+    card_open_ = true;
+  }
+  large_ = large;
+  mark_ = std::string(mark);
+}
+
+void Reader::close_card() {
+  if (!card_open_) return;
+  CardSpan& card = text_.cards.back();
+  while (text_.fields.size() > card.first_field && text_.fields.back().text.empty()) text_.fields.pop_back();
+  card.field_count = text_.fields.size() - card.first_field;
+  card_open_ = false;
+}
+
+}  // namespace
+
+Text read_text(const fs::path& path) { return Reader{}.read(path); }
+
+}  // namespace tenon::fem::nastran
