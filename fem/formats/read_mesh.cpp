@@ -1,0 +1,45 @@
+#include "fem/formats/read_mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+
+#include "fem/error.hpp"
+#include "fem/formats/gmsh.hpp"
+
+namespace tenon::fem {
+namespace {
+
+std::string lower_extension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return extension;
+}
+
+bool begins_as_gmsh(const std::filesystem::path& path) {
+  constexpr std::string_view heading = "$MeshFormat";
+  std::array<char, heading.size()> start{};
+  std::ifstream stream(path, std::ios::binary);
+  stream.read(start.data(), start.size());
+  return stream.gcount() == std::ssize(start) && std::string_view(start.data(), start.size()) == heading;
+}
+
+}  // namespace
+
+Mesh read_mesh(const std::filesystem::path& path) {
+  std::error_code error;
+  const bool regular = std::filesystem::is_regular_file(path, error);
+  const std::string extension = lower_extension(path);
+  if (!regular || extension == ".msh" || begins_as_gmsh(path)) return read_gmsh(path);
+  const bool deck = extension == ".bdf" || extension == ".dat" || extension == ".nas";
+  throw InputError(
+      {path.string()}, fmt::format("'{}' is not a mesh format that is read here", extension),
+      deck ? "A Nastran deck is a whole model with its own sections, not a mesh: give it where a deck is asked for"
+           : "Give a Gmsh mesh (.msh, version 2.2 or 4.1); gmsh converts others: gmsh in.unv -save -format msh41 -o "
+             "out.msh");
+}
+
+}  // namespace tenon::fem
