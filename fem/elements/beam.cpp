@@ -1,0 +1,175 @@
+#include "fem/elements/beam.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <limits>
+
+#include "fem/elements/basic_frame.hpp"
+#include "fem/error.hpp"
+
+// The beam in its own axes: x from end 1 to end 2 (length h), y and z of the section. Both bending planes at once:
+//   v = (u_y, u_z), slopes s = (r_z, −r_y), so that s = v' in an unsheared beam.
+//   B   = E [I_z I_yz; I_yz I_y]                     bending stiffness, M = B s'          2×2
+//   C_s = diag(1/κ_y GA, 1/κ_z GA), 0 where κ = 0    shear compliance, v' − s = C_s V      2×2
+//
+// Exact static shapes. Without distributed load V' = 0 and V = −B s'', so the shear strain v' − s is constant over the
+// element and equals −C_s B s''. With ξ = x/h and
+//   P = (12/h²) C_s B  (the matrix Φ of Przemieniecki),   Q = (1 + P)⁻¹                                            (1)
+// the solution through the end values q = (v₁, s₁, v₂, s₂) blends two sets of shapes,
+//   v(ξ) = Σ_i [H_i(ξ) Q + L_i(ξ) (1 − Q)] q_i,    s(ξ) = Σ_i [H_i'(ξ)/h Q + l_i(ξ) (1 − Q)] q_i                   (2)
+//   H = cubic Hermite,  L = {1−ξ, h(ξ−ξ²)/2, ξ, −h(ξ−ξ²)/2},  l = {0, 1−ξ, 0, ξ}:
+// the first is the beam that cannot shear, the second the one that bends as if shear were free. All integrals are then
+// 4×4 tables of numbers, joined with 2×2 matrices by Kronecker products; for planes that do not couple (I_yz = 0) this
+// is the textbook element plane by plane.
+//   K = k_H ⊗ BQ + k_L ⊗ B(1−Q),     BQ = (B⁻¹ + 12/h² C_s)⁻¹ symmetric                                            (3)
+//   M = m h [HH ⊗ Q'Q + HL ⊗ Q'(1−Q) + (HL)' ⊗ (1−Q)'Q + LL ⊗ (1−Q)'(1−Q)] + rotary part, alike                    (4)
+//
+// High-order mass. By the Rayleigh quotient, the frequency error of a consistent element is the energy of what its
+// shapes cannot follow: the deflection of the clamped-clamped element under its own inertia load p = λ m v, nearly
+// constant over the element. Per unit p and plane its mean is h⁴/720EI + h²/12κGA = h⁴(1+5Φ)/720EI, therefore
+//   λ_h = λ + λ² c + ...,   c = m h⁴ (1 + 5Φ) / (720 EI)       [slender: λ_h = λ (1 + (kh)⁴/720)]                   (5)
+// for any end conditions, and 1/λ_h = 1/λ − c. Adding c K_e to M_e turns 1/λ_h into 1/λ_h + c = 1/λ + higher order.
+// K_e R = 0, so rigid mass properties stay. The same for the axial bar, c = m h²/12EA, and for torsion, where
+// (1/6)[2 1; 1 2] becomes (1/12)[5 1; 1 5]. What (5) leaves of shear and rotary inertia coupled is O((kr)⁴(kh)²),
+// r the radius of gyration.
+namespace tenon::fem {
+namespace {
+
+using Mat2 = Eigen::Matrix2d;
+using Table = Eigen::Matrix4d;  // over (v₁, h s₁, v₂, h s₂)
+using Mat12 = Eigen::Matrix<double, 12, 12>;
+
+Table table(double scale, std::array<double, 16> rows) {
+  return scale * Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(rows.data());
+}
+
+// ∫ over ξ in 0..1 of products of the shapes (2), lengths divided out.
+const Table k_H = table(1.0, {12, 6, -12, 6, 6, 4, -6, 2, -12, -6, 12, -6, 6, 2, -6, 4});  // H'' H''
+const Table k_L = table(1.0, {0, 0, 0, 0, 0, 1, 0, -1, 0, 0, 0, 0, 0, -1, 0, 1});          // l' l'
+const Table HH = table(1.0 / 420, {156, 22, 54, -13, 22, 4, 13, -3, 54, 13, 156, -22, -13, -3, -22, 4});
+const Table HL = table(1.0 / 120, {42, 5, 18, -5, 6, 1, 4, -1, 18, 5, 42, -5, -4, -1, -6, 1});
+const Table LL = table(1.0 / 120, {40, 5, 20, -5, 5, 1, 5, -1, 20, 5, 40, -5, -5, -1, -5, 1});
+const Table hh = table(1.0 / 30, {36, 3, -36, 3, 3, 4, -3, -1, -36, -3, 36, -3, 3, -1, -3, 4});  // H' H'
+const Table hl = table(1.0 / 12, {0, -6, 0, -6, 0, 1, 0, -1, 0, 6, 0, 6, 0, -1, 0, 1});          // H' l
+const Table ll = table(1.0 / 6, {0, 0, 0, 0, 0, 2, 0, 1, 0, 0, 0, 0, 0, 1, 0, 2});               // l l
+
+/// A ⊗ X onto the transverse dofs of a 12×12 matrix: table row 2n is v of node n, 2n+1 is h s.
+void add_transverse(Mat12& out, const Table& A, const Mat2& X, double h) {
+  static constexpr int dof[4][2] = {{1, 2}, {5, 4}, {7, 8}, {11, 10}};    // (u_y u_z), (r_z r_y)
+  const double scale[4][2] = {{1.0, 1.0}, {h, -h}, {1.0, 1.0}, {h, -h}};  // s_z = −r_y
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j)
+      for (int a = 0; a < 2; ++a)
+        for (int b = 0; b < 2; ++b) out(dof[i][a], dof[j][b]) += scale[i][a] * scale[j][b] * A(i, j) * X(a, b);
+}
+
+void add_bar(Mat12& out, int dof, double diagonal, double coupling) {
+  out(dof, dof) += diagonal;
+  out(dof + 6, dof + 6) += diagonal;
+  out(dof, dof + 6) += coupling;
+  out(dof + 6, dof) += coupling;
+}
+
+Mat2 symmetric(const Mat2& X) { return 0.5 * (X + X.transpose()); }
+
+void refuse(const Beam& beam, const std::string& what, const std::string& cure) {
+  throw ModelError(fmt::format("beam element {}: {}", beam.id, what), cure);
+}
+
+void check(const Beam& beam, const BeamSection& s, const Material& m) {
+  if (!(m.E > 0.0))
+    refuse(beam, fmt::format("Young's modulus of material '{}' is {} Pa", m.name, m.E), "Give a positive one");
+  if (!(s.A > 0.0)) refuse(beam, fmt::format("the area of section '{}' is {} m²", s.name, s.A), "Give a positive one");
+  if (!(s.Iy >= 0.0 && s.Iz >= 0.0 && s.J >= 0.0 && s.Iy * s.Iz - s.Iyz * s.Iyz >= -1e-12 * s.Iy * s.Iz))
+    refuse(beam,
+           fmt::format("section '{}' has second moments no area can have (Iy {}, Iz {}, Iyz {}, J {})", s.name, s.Iy,
+                       s.Iz, s.Iyz, s.J),
+           "They must satisfy Iy, Iz, J >= 0 and Iyz² <= Iy Iz");
+  if (!(s.kappa_y >= 0.0 && s.kappa_z >= 0.0))
+    refuse(beam, fmt::format("section '{}' has a negative shear coefficient", s.name), "Give κ > 0, or 0 for rigid");
+  if (!(m.G > 0.0) && (s.J > 0.0 || s.kappa_y > 0.0 || s.kappa_z > 0.0))
+    refuse(beam, fmt::format("material '{}' has no shear modulus, which its torsion or shear needs", m.name),
+           "Give G, or E and Poisson's ratio");
+  if (!(m.rho >= 0.0 && s.nsm >= 0.0))
+    refuse(beam, fmt::format("negative mass (density {}, non-structural {} kg/m)", m.rho, s.nsm), "Give masses >= 0");
+}
+
+/// Columns x, y, z of the element and its length.
+Mat3 beam_axes(const Beam& beam, const Vec3& end_1, const Vec3& end_2, double& h) {
+  const Vec3 axis = end_2 - end_1;
+  h = axis.norm();
+  if (!(h > 4.0 * std::numeric_limits<double>::epsilon() * (end_1.norm() + end_2.norm())))
+    refuse(beam, "its length is zero (both ends lie at one place, offsets included)",
+           "Delete it, or join the nodes by a rigid link");
+  Mat3 R;
+  R.col(0) = axis / h;
+  const Vec3 z = R.col(0).cross(beam.orientation);
+  if (!(z.norm() > 1e-8 * beam.orientation.norm()))
+    refuse(beam, "its orientation vector is zero or parallel to its axis", "Choose one across the axis");
+  R.col(2) = z.normalized();
+  R.col(1) = R.col(2).cross(R.col(0));
+  return R;
+}
+
+}  // namespace
+
+void beam_matrices(const Beam& beam, const BeamSection& section, const Material& material, std::span<const Vec3> nodes,
+                   ElementMatrices& out) {
+  check(beam, section, material);
+  const Vec3 end_1 = nodes[static_cast<std::size_t>(beam.nodes[0])] + beam.offsets[0];
+  const Vec3 end_2 = nodes[static_cast<std::size_t>(beam.nodes[1])] + beam.offsets[1];
+  double h = 0.0;
+  const Mat3 R = beam_axes(beam, end_1, end_2, h);
+
+  const double E = material.E, GA = material.G * section.A, rho = material.rho;
+  const Mat2 I = (Mat2() << section.Iz, section.Iyz, section.Iyz, section.Iy).finished();
+  const Eigen::Vector2d C_s(section.kappa_y > 0.0 ? 1.0 / (section.kappa_y * GA) : 0.0,
+                            section.kappa_z > 0.0 ? 1.0 / (section.kappa_z * GA) : 0.0);
+  const Mat2 B = E * I;
+  const Mat2 P = 12.0 / (h * h) * C_s.asDiagonal() * B;  // (1)
+  const Mat2 Q = (Mat2::Identity() + P).inverse();
+  const Mat2 PQ = P * Q;  // 1 − Q, without cancellation
+
+  Mat12 K = Mat12::Zero(), M = Mat12::Zero();
+  const double EA_h = E * section.A / h, GJ_h = material.G * section.J / h, h3 = h * h * h;
+  add_bar(K, 0, EA_h, -EA_h);
+  add_bar(K, 3, GJ_h, -GJ_h);
+  add_transverse(K, k_H, symmetric(B * Q) / h3, h);  // (3)
+  add_transverse(K, k_L, symmetric(B * PQ) / h3, h);
+
+  const double m = rho * section.A + section.nsm;  // [kg/m]
+  const double rho_Ip = rho * (section.Iy + section.Iz);
+  if (beam.mass == BeamMass::nastran) {
+    add_bar(M, 0, m * h * 5.0 / 12.0, m * h / 12.0);
+    add_transverse(M, HH, m * h * Mat2::Identity(), h);
+  } else {
+    const bool high = beam.mass == BeamMass::high_order;
+    const double diagonal = high ? 5.0 / 12.0 : 1.0 / 3.0, coupling = high ? 1.0 / 12.0 : 1.0 / 6.0;
+    add_bar(M, 0, m * h * diagonal, m * h * coupling);
+    add_bar(M, 3, rho_Ip * h * diagonal, rho_Ip * h * coupling);
+    const Mat2 mixed = Q.transpose() * PQ;
+    add_transverse(M, HH, m * h * Q.transpose() * Q, h);  // (4)
+    add_transverse(M, HL, m * h * mixed, h);
+    add_transverse(M, HL.transpose(), m * h * mixed.transpose(), h);
+    add_transverse(M, LL, m * h * PQ.transpose() * PQ, h);
+    if (beam.rotary_inertia) {
+      const Mat2 r = rho / h * I;
+      const Mat2 r_mixed = Q.transpose() * r * PQ;
+      add_transverse(M, hh, Q.transpose() * r * Q, h);
+      add_transverse(M, hl, r_mixed, h);
+      add_transverse(M, hl.transpose(), r_mixed.transpose(), h);
+      add_transverse(M, ll, PQ.transpose() * r * PQ, h);
+    }
+    if (high) {  // c K_e of (5), B cancelled: Q(1+5P) = 5 − 4Q and (1−Q)(1+5P) = 5P − 4(1−Q)
+      add_transverse(M, k_H, m * h / 720.0 * symmetric(5.0 * Mat2::Identity() - 4.0 * Q), h);
+      add_transverse(M, k_L, m * h / 720.0 * symmetric(5.0 * P - 4.0 * PQ), h);
+    }
+  }
+
+  const std::array<Vec3, 2> arms{R.transpose() * beam.offsets[0], R.transpose() * beam.offsets[1]};
+  to_basic_frame<2>(K, R, arms, out.K);
+  to_basic_frame<2>(M, R, arms, out.M);
+}
+
+}  // namespace tenon::fem

@@ -1,0 +1,255 @@
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+
+#include "fem/elements/basic_frame.hpp"
+#include "fem/elements/shell.hpp"
+#include "fem/elements/shell_theory.hpp"
+#include "fem/error.hpp"
+
+// Natural coordinates r, s in −1..1; h = rs. The shape functions split into what linear fields see and an hourglass,
+//   N_i = Δ_i + b_i x + c_i y + γ_i h,   γ_i = ¼ [h_i − (Σ h_j x_j) b_i − (Σ h_j y_j) c_i],   ∇N_i = (b_i, c_i) + γ_i
+//   ∇h   (1)
+// (Flanagan, Belytschko, IJNME 17 (1981) 679): γ is blind to every linear field, whatever the quad's shape.
+//
+// Membrane: bilinear u, v with incompatible modes 1−r², 1−s² whose gradients are those of the centre scaled by j₀/j, so
+// that constant stress does no work on them (Taylor, Beresford, Wilson, IJNME 10 (1976) 1211): in-plane bending exact
+// in rectangles, patch test in any quad. Drilling: α G t ∫ (θz − ½(v,x − u,y))² dA, Hughes, Brezzi, CMAME 72 (1989)
+// 105, with α = 10⁻³ instead of 1. The rotation of the bilinear field is only half of that in bending; α = 1 would
+// stiffen a bent row of elements, 10⁻³ does not (below 10⁻⁴ of its deflection). Drilling has no mass, so it is
+// condensed statically and however weak adds no mode; rotations of the whole give exactly zero.
+//
+// Plate: shell_theory.hpp. In a plane wave of the thin plate, w = e^{i(ξx+ηy)} on a lattice of a×b rectangles, the
+// element's energy relative to the continuum's differs by the second-order form
+//   −q₁ ξ²η² (ξ²b² + η²a²) − ν/6 ξ²η² (ξ²a² + η²b²) − (1−ν)/2 (1/12 + q₂) ξ²η² (ξ²a² + η²b²) (2)
+// with q = ¼ (1 − f/3), f the factor on the energy of the hourglass part of κ_x, κ_y (q₁) and of κ_xy (q₂). f = 1 is
+// too soft in oblique directions; f₁ = 3, f₂ = 4/(1−ν) make (2) vanish: fourth order where the mesh is rectangular, and
+// a smaller constant elsewhere. The added energy is
+//   D/(1+φ) { 2 q_x² ∫h_x² + 2 q_y² ∫h_y² + ½(3+ν) ∫(q_x h_y + q_y h_x)² },   q_x = Σ γ_i β_xi,  q_y = Σ γ_i β_yi (3)
+// zero for constant curvature by (1). Like the edge rotations it fades as φ → ∞, where plain MITC4 remains.
+namespace tenon::fem {
+namespace {
+
+using Mat2 = Eigen::Matrix2d;
+using Vec4 = Eigen::Vector4d;
+using Mat4 = Eigen::Matrix4d;
+using Row12 = Eigen::Matrix<double, 1, 12>;
+using Mat12 = Eigen::Matrix<double, 12, 12>;
+using Mat24 = Eigen::Matrix<double, 24, 24>;
+
+const Vec4 corner_r(-1.0, 1.0, 1.0, -1.0), corner_s(-1.0, -1.0, 1.0, 1.0), corner_h(1.0, -1.0, 1.0, -1.0);
+
+/// The quad flattened onto its mean plane.
+struct FlatQuad {
+  Mat3 R;                    ///< columns: element axes
+  Vec4 x, y;                 ///< corners in the plane [m]
+  std::array<Vec3, 4> arms;  ///< node to corner, element axes [m]
+};
+
+/// The mean plane is parallel to both diagonals: the nodes lie at ±d from it in turn. x bisects the diagonals, along r.
+FlatQuad flatten(const Quad4& quad, std::span<const Vec3> nodes) {
+  std::array<Vec3, 4> p;
+  for (std::size_t i = 0; i < 4; ++i) p[i] = nodes[static_cast<std::size_t>(quad.nodes[i])];
+  const Vec3 d13 = p[2] - p[0], d24 = p[3] - p[1], normal = d13.cross(d24);
+  const double size2 = d13.squaredNorm() + d24.squaredNorm();
+  if (!(normal.norm() > 1e-10 * size2))
+    throw ModelError(fmt::format("quad element {}: its area is zero", quad.id),
+                     "Delete it, or use a triangle where two of its nodes coincide");
+  FlatQuad f;
+  f.R.col(2) = normal.normalized();
+  f.R.col(0) = (d13.normalized() - d24.normalized()).normalized();
+  f.R.col(1) = f.R.col(2).cross(f.R.col(0));
+  const Vec3 centre = 0.25 * (p[0] + p[1] + p[2] + p[3]);
+  for (int i = 0; i < 4; ++i) {
+    const Vec3 local = f.R.transpose() * (p[static_cast<std::size_t>(i)] - centre);
+    f.x[i] = local.x();
+    f.y[i] = local.y();
+    const bool flat = std::abs(local.z()) <= 1e-13 * std::sqrt(size2);
+    f.arms[static_cast<std::size_t>(i)] = flat ? Vec3(0.0, 0.0, 0.0) : Vec3(0.0, 0.0, -local.z());
+  }
+  for (int i = 0; i < 4; ++i) {
+    const int next = (i + 1) % 4, last = (i + 3) % 4;
+    const double turn = (f.x[next] - f.x[i]) * (f.y[last] - f.y[i]) - (f.y[next] - f.y[i]) * (f.x[last] - f.x[i]);
+    if (!(turn > 1e-8 * normal.norm()))
+      throw ModelError(
+          fmt::format("quad element {}: it is folded or crossed, the angle at its corner {} is 180° or more", quad.id,
+                      i + 1),
+          "List the nodes around the element, or split it into two triangles");
+  }
+  return f;
+}
+
+/// Shape functions and metric at (r, s).
+struct Point {
+  Vec4 N, N_x, N_y;
+  Mat2 J_inv;  ///< [r,x s,x; r,y s,y]
+  double dA;   ///< j
+};
+
+Point at(const FlatQuad& q, double r, double s) {
+  Point p;
+  const Vec4 fr = Vec4::Ones() + r * corner_r, fs = Vec4::Ones() + s * corner_s;
+  p.N = 0.25 * fr.cwiseProduct(fs);
+  const Vec4 N_r = 0.25 * corner_r.cwiseProduct(fs), N_s = 0.25 * corner_s.cwiseProduct(fr);
+  const double x_r = q.x.dot(N_r), x_s = q.x.dot(N_s), y_r = q.y.dot(N_r), y_s = q.y.dot(N_s);
+  p.dA = x_r * y_s - x_s * y_r;
+  p.J_inv << y_s, -y_r, -x_s, x_r;
+  p.J_inv /= p.dA;
+  p.N_x = p.J_inv(0, 0) * N_r + p.J_inv(0, 1) * N_s;
+  p.N_y = p.J_inv(1, 0) * N_r + p.J_inv(1, 1) * N_s;
+  return p;
+}
+
+/// The 2×2 Gauss points, exact for everything here but the square of the linked deflection (fourth-order effect).
+struct Points {
+  Point centre;
+  std::array<double, 4> r, s;
+  std::array<Point, 4> gauss;
+};
+
+Points points(const FlatQuad& flat) {
+  Points p;
+  p.centre = at(flat, 0.0, 0.0);
+  for (int g = 0; g < 4; ++g) {
+    const auto k = static_cast<std::size_t>(g);
+    p.r[k] = corner_r[g] / std::sqrt(3.0);
+    p.s[k] = corner_s[g] / std::sqrt(3.0);
+    p.gauss[k] = at(flat, p.r[k], p.s[k]);
+  }
+  return p;
+}
+
+/// Stiffness over (u v θz).
+Mat12 membrane_stiffness(const ShellTheory& theory, const Points& points) {
+  Mat12 K = Mat12::Zero();
+  Eigen::Matrix<double, 12, 4> K_ua = Eigen::Matrix<double, 12, 4>::Zero();
+  Mat4 K_aa = Mat4::Zero();
+  for (std::size_t g = 0; g < 4; ++g) {
+    const Point& p = points.gauss[g];
+    Eigen::Matrix<double, 3, 12> B = Eigen::Matrix<double, 3, 12>::Zero();
+    Row12 relative;  // θz − ½ (v,x − u,y)
+    for (int i = 0; i < 4; ++i) {
+      B(0, 3 * i) = B(2, 3 * i + 1) = p.N_x[i];
+      B(1, 3 * i + 1) = B(2, 3 * i) = p.N_y[i];
+      relative[3 * i] = 0.5 * p.N_y[i];
+      relative[3 * i + 1] = -0.5 * p.N_x[i];
+      relative[3 * i + 2] = p.N[i];
+    }
+    Eigen::Matrix<double, 3, 4> G = Eigen::Matrix<double, 3, 4>::Zero();  // of the incompatible modes
+    const double scale = -2.0 * points.centre.dA / p.dA;
+    for (int a = 0; a < 2; ++a) {
+      const Eigen::Vector2d gradient = scale * (a == 0 ? points.r[g] : points.s[g]) * points.centre.J_inv.col(a);
+      G(0, 2 * a) = G(2, 2 * a + 1) = gradient.x();
+      G(1, 2 * a + 1) = G(2, 2 * a) = gradient.y();
+    }
+    const Eigen::Matrix<double, 3, 12> DB = p.dA * theory.membrane * B;
+    const Eigen::Matrix<double, 3, 4> DG = p.dA * theory.membrane * G;
+    K.noalias() += B.transpose() * DB;
+    K.noalias() += p.dA * theory.drilling * relative.transpose() * relative;
+    K_ua.noalias() += DB.transpose() * G;
+    K_aa.noalias() += G.transpose() * DG;
+  }
+  K.noalias() -= K_ua * K_aa.llt().solve(K_ua.transpose());
+  return K;
+}
+
+/// Energy (3), added over (w θx θy).
+void add_hourglass(const ShellTheory& theory, const FlatQuad& flat, const Points& points, Mat12& K) {
+  const Vec4 gamma =
+      0.25 * (corner_h - corner_h.dot(flat.x) * points.centre.N_x - corner_h.dot(flat.y) * points.centre.N_y);
+  double xx = 0.0, yy = 0.0, xy = 0.0;  // ∫ ∇h ∇h'
+  for (std::size_t g = 0; g < 4; ++g) {
+    const Point& p = points.gauss[g];
+    const Eigen::Vector2d grad_h = p.J_inv * Eigen::Vector2d(points.s[g], points.r[g]);
+    xx += p.dA * grad_h.x() * grad_h.x();
+    yy += p.dA * grad_h.y() * grad_h.y();
+    xy += p.dA * grad_h.x() * grad_h.y();
+  }
+  const double area = 4.0 * points.centre.dA, D = theory.bending(0, 0);
+  const double fade = theory.shear > 0.0 ? 1.0 / (1.0 + 12.0 * D / (theory.shear * area)) : 1.0;
+  const double twist = 0.5 * (3.0 + theory.nu);
+  const double k_xx = fade * D * (2.0 * xx + twist * yy), k_yy = fade * D * (2.0 * yy + twist * xx);
+  const double k_xy = fade * D * twist * xy;
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) {  // β_x = θy, β_y = −θx
+      const double gg = gamma[i] * gamma[j];
+      K(3 * i + 2, 3 * j + 2) += gg * k_xx;
+      K(3 * i + 1, 3 * j + 1) += gg * k_yy;
+      K(3 * i + 2, 3 * j + 1) -= gg * k_xy;
+      K(3 * i + 1, 3 * j + 2) -= gg * k_xy;
+    }
+}
+
+/// Stiffness and mass over (w θx θy); `NN` is ∫ N_i N_j dA.
+void plate(const ShellTheory& theory, const FlatQuad& flat, const Points& points, const Mat4& NN, Mat12& K, Mat12& M) {
+  std::array<PlateEdge, 4> edge;
+  for (int k = 0; k < 4; ++k) {
+    const int j = (k + 1) % 4;
+    edge[static_cast<std::size_t>(k)] = plate_edge(theory, flat.x[j] - flat.x[k], flat.y[j] - flat.y[k]);
+  }
+  K.setZero();
+  M.setZero();
+  for (std::size_t g = 0; g < 4; ++g) {
+    const Point& p = points.gauss[g];
+    const double r = points.r[g], s = points.s[g];
+    Eigen::Matrix<double, 3, 12> B = Eigen::Matrix<double, 3, 12>::Zero();        // curvature
+    Eigen::Matrix<double, 2, 12> natural = Eigen::Matrix<double, 2, 12>::Zero();  // γ_r, γ_s
+    Row12 w = Row12::Zero();                                                      // linked deflection
+    for (int i = 0; i < 4; ++i) {
+      B(0, 3 * i + 2) = p.N_x[i];
+      B(1, 3 * i + 1) = -p.N_y[i];
+      B(2, 3 * i + 1) = -p.N_x[i];
+      B(2, 3 * i + 2) = p.N_y[i];
+      w[3 * i] = p.N[i];
+    }
+    // edge bubbles P = 4ξ(1−ξ) across the element, and the MITC4 weights of the edges' shears, ½(1 ± s)/2
+    const double br = 1.0 - r * r, bs = 1.0 - s * s;
+    const std::array<double, 4> P{0.5 * br * (1.0 - s), 0.5 * bs * (1.0 + r), 0.5 * br * (1.0 + s),
+                                  0.5 * bs * (1.0 - r)};
+    const std::array<double, 4> P_r{-r * (1.0 - s), 0.5 * bs, -r * (1.0 + s), -0.5 * bs};
+    const std::array<double, 4> P_s{-0.5 * br, -s * (1.0 + r), 0.5 * br, -s * (1.0 - r)};
+    const std::array<double, 4> tie{0.25 * (1.0 - s), 0.25 * (1.0 + r), -0.25 * (1.0 + s), -0.25 * (1.0 - r)};
+    for (std::size_t k = 0; k < 4; ++k) {
+      const PlateEdge& e = edge[k];
+      const int i = static_cast<int>(k), j = (i + 1) % 4;
+      const double P_x = p.J_inv(0, 0) * P_r[k] + p.J_inv(0, 1) * P_s[k];
+      const double P_y = p.J_inv(1, 0) * P_r[k] + p.J_inv(1, 1) * P_s[k];
+      const Vec3 kappa(P_x * e.c_dbeta, P_y * e.s_dbeta, P_y * e.c_dbeta + P_x * e.s_dbeta);
+      add_g(B, kappa, e, i, j);
+      add_g(natural.row(i % 2), Eigen::Matrix<double, 1, 1>(tie[k] * e.shear), e, i, j);
+      add_link(w, P[k], e, i, j);
+    }
+    const Eigen::Matrix<double, 2, 12> gamma = p.J_inv * natural;
+    const Eigen::Matrix<double, 3, 12> DB = p.dA * theory.bending * B;
+    K.noalias() += B.transpose() * DB;
+    K.noalias() += p.dA * theory.shear * gamma.transpose() * gamma;
+    M.noalias() += p.dA * theory.mass * w.transpose() * w;
+  }
+  add_hourglass(theory, flat, points, K);
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j)
+      for (int a = 1; a < 3; ++a) M(3 * i + a, 3 * j + a) += theory.rotary * NN(i, j);
+}
+
+}  // namespace
+
+void quad4_matrices(const Quad4& quad, const ShellSection& section, const Material& material,
+                    std::span<const Vec3> nodes, ElementMatrices& out) {
+  const ShellTheory theory = shell_theory(section, material, "quad", quad.id);
+  const FlatQuad flat = flatten(quad, nodes);
+  const Points gauss = points(flat);
+
+  Mat4 NN = Mat4::Zero();
+  for (const Point& p : gauss.gauss) NN.noalias() += p.dA * p.N * p.N.transpose();
+  const Mat12 K_membrane = membrane_stiffness(theory, gauss);
+  Mat12 K_plate, M_plate;
+  plate(theory, flat, gauss, NN, K_plate, M_plate);
+
+  shell_to_basic_frame<4>(K_membrane, K_plate, flat.R, flat.arms, out.K);
+  Mat12 M_membrane = Mat12::Zero();
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) M_membrane(3 * i, 3 * j) = M_membrane(3 * i + 1, 3 * j + 1) = theory.mass * NN(i, j);
+  shell_to_basic_frame<4>(M_membrane, M_plate, flat.R, flat.arms, out.M);
+}
+
+}  // namespace tenon::fem

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <span>
+
+#include "fem/elements/element_matrices.hpp"
+#include "fem/model.hpp"
+
+namespace tenon::fem {
+
+/// Stiffness and mass of a flat four-node shell, 24×24; a warped one lies in its mean plane, its nodes joined to the
+/// corners by rigid arms. Membrane with incompatible modes, MITC4 shear with edge rotations (exact thin limit),
+/// weak drilling stiffness relative to the membrane's rotation, no drilling mass. Theory: shell_theory.hpp.
+/// @param nodes  positions of all nodes of the model [m]
+/// @throws ModelError naming the element: zero area, folded or crossed corners, thickness, E or G ≤ 0, ν outside
+///         (−1, 1/2], negative ratios or mass.
+void quad4_matrices(const Quad4& quad, const ShellSection& section, const Material& material,
+                    std::span<const Vec3> nodes, ElementMatrices& out);
+
+/// The same for three nodes, 18×18: OPT membrane (its drilling rotations are real stiffness), MITC3 shear with edge
+/// rotations. @throws ModelError as above.
+void tria3_matrices(const Tria3& tria, const ShellSection& section, const Material& material,
+                    std::span<const Vec3> nodes, ElementMatrices& out);
+
+}  // namespace tenon::fem

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "fem/elements/basic_frame.hpp"
+#include "fem/model.hpp"
+
+/// What the quadrilateral and the triangle share. Element axes x, y in the plane, z normal; node dofs
+/// [u v w θx θy θz]; the normal's rotations β_x = θy, β_y = −θx, so that a point at z moves by (zβ_x, zβ_y).
+///   membrane strain  ε = (u,x  v,y  u,y + v,x),   curvature  κ = (β_x,x  β_y,y  β_x,y + β_y,x),
+///   shear  γ = (w,x + β_x, w,y + β_y).
+///
+/// Bending of an edge from node i to node j, length l, tangent (c, s), β_t = c β_x + s β_y: beside its linear part β_t
+/// carries Δβ 4ξ(1−ξ), and its shear is constant, γ̄. Compatibility of w along the edge and M_t' = V of a plate strip
+/// say
+///   g + (2/3) l Δβ = l γ̄,   g = w_j − w_i + (l/2)(β_ti + β_tj)                                                     (1)
+///   γ̄ = −(2/3) φ Δβ,        φ = 12 D / (κ G t l²)                                                                  (2)
+/// so that  l γ̄ = g φ/(1+φ)  and  Δβ = −(3/2l) g/(1+φ)                                                              (3)
+/// Thick (φ → ∞): no edge rotation, and γ̄ tied to the element by MITC interpolation is MITC4 / MITC3 itself. Thin
+/// (φ → 0): γ̄ → 0 on each edge without a penalty, nothing locks and no stiffness grows as 1/t². A strip of such
+/// elements is the exact Timoshenko beam, whose Φ the φ is. Source: Katili, IJNME 36 (1993) 1859, 1885 (DKMT, DKMQ);
+/// MITC4: Bathe, Dvorkin, IJNME 21 (1985) 367; MITC3: Lee, Bathe, Comput. Struct. 82 (2004) 945.
+///
+/// Mass: u, v linear or bilinear; w by linked interpolation, linear plus on each edge 4ξ(1−ξ) (l/8)(β_tj − β_ti),
+/// what (1) says of a bent edge without net shear. Rigid motions have β_tj = β_ti: their masses stay exact.
+namespace tenon::fem {
+
+/// The shell's section stiffnesses and masses per unit area.
+struct ShellTheory {
+  Mat3 membrane;    ///< t C, C plane stress [N/m]
+  Mat3 bending;     ///< (12I/t³) t³/12 C [N m]
+  double shear;     ///< κ G t [N/m]; 0 stands for rigid in shear
+  double drilling;  ///< α G t, of θz relative to the membrane's rotation [N/m]
+  double nu;
+  double mass;    ///< ρ t + nsm [kg/m²]
+  double rotary;  ///< ρ t³/12 [kg]
+};
+
+/// `kind` and `id` name the element in messages. @throws ModelError for values no shell can have
+ShellTheory shell_theory(const ShellSection& section, const Material& material, std::string_view kind, long id);
+
+/// An edge's part in bending and shear, (1)–(3).
+struct PlateEdge {
+  double dx, dy;   ///< l c, l s [m]
+  double shear;    ///< l γ̄ / g = φ/(1+φ)
+  double c_dbeta;  ///< c Δβ / g [1/m]
+  double s_dbeta;  ///< s Δβ / g [1/m]
+};
+
+PlateEdge plate_edge(const ShellTheory& theory, double dx, double dy);
+
+/// rows += factors g, g of the edge from i to j over the dofs (w θx θy).
+template <typename Rows, typename Factors>
+void add_g(Rows&& rows, const Factors& factors, const PlateEdge& e, int i, int j) {
+  for (int a = 0; a < factors.size(); ++a) {
+    const double f = factors[a], f_x = 0.5 * f * e.dx, f_y = 0.5 * f * e.dy;
+    rows(a, 3 * i) -= f;
+    rows(a, 3 * i + 1) -= f_y;
+    rows(a, 3 * i + 2) += f_x;
+    rows(a, 3 * j) += f;
+    rows(a, 3 * j + 1) -= f_y;
+    rows(a, 3 * j + 2) += f_x;
+  }
+}
+
+/// row += P (l/8)(β_tj − β_ti), the linked deflection of the edge from i to j.
+template <typename Row>
+void add_link(Row& row, double P, const PlateEdge& e, int i, int j) {
+  const double f_x = 0.125 * P * e.dx, f_y = 0.125 * P * e.dy;
+  row[3 * i + 1] += f_y;
+  row[3 * i + 2] -= f_x;
+  row[3 * j + 1] -= f_y;
+  row[3 * j + 2] += f_x;
+}
+
+/// Joins a membrane matrix over (u v θz) and a plate matrix over (w θx θy) and carries them to the basic frame.
+template <int N>
+void shell_to_basic_frame(const Eigen::Matrix<double, 3 * N, 3 * N>& membrane,
+                          const Eigen::Matrix<double, 3 * N, 3 * N>& plate, const Mat3& R,
+                          const std::array<Vec3, N>& arms, ElementMatrices::Matrix& out) {
+  static constexpr std::array<int, 3> in_plane{0, 1, 5}, across{2, 3, 4};
+  Eigen::Matrix<double, 6 * N, 6 * N> local = Eigen::Matrix<double, 6 * N, 6 * N>::Zero();
+  for (int j = 0; j < N; ++j)
+    for (int i = 0; i <= j; ++i)
+      for (int b = 0; b < 3; ++b)
+        for (int a = 0; a < 3; ++a) {
+          const auto ka = static_cast<std::size_t>(a), kb = static_cast<std::size_t>(b);
+          local(6 * i + in_plane[ka], 6 * j + in_plane[kb]) = membrane(3 * i + a, 3 * j + b);
+          local(6 * i + across[ka], 6 * j + across[kb]) = plate(3 * i + a, 3 * j + b);
+        }
+  to_basic_frame<N>(local, R, arms, out);
+}
+
+}  // namespace tenon::fem

@@ -1,0 +1,158 @@
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+
+#include "fem/elements/basic_frame.hpp"
+#include "fem/elements/shell.hpp"
+#include "fem/elements/shell_theory.hpp"
+#include "fem/error.hpp"
+
+// Membrane: the optimal ANDES triangle with drilling rotations of Felippa, CMAME 192 (2003) 2125:
+//   K = (1/V) L C L' + ¾ β₀ T' K_θ T                                                                               (1)
+// L lumps a constant stress to node forces and moments (α_b = 3/2), T takes the node displacements to the hierarchical
+// rotations, K_θ is the energy of three linear natural-strain fields. Bending of a rectangle cut into two triangles is
+// exact for any aspect ratio. The rotations are real stiffness, so no drilling term is needed.
+// Plate: shell_theory.hpp. Everything integrated is quadratic: three points are exact, but for the square of the linked
+// deflection (fourth-order effect).
+namespace tenon::fem {
+namespace {
+
+using Mat9 = Eigen::Matrix<double, 9, 9>;
+using Row9 = Eigen::Matrix<double, 1, 9>;
+
+/// The triangle in its plane, x along its first edge.
+struct FlatTria {
+  Mat3 R;     ///< columns: element axes
+  Vec3 x, y;  ///< corners [m]
+  double A;   ///< area [m²]
+};
+
+FlatTria flatten(const Tria3& tria, std::span<const Vec3> nodes) {
+  const Vec3& p1 = nodes[static_cast<std::size_t>(tria.nodes[0])];
+  const Vec3 e12 = nodes[static_cast<std::size_t>(tria.nodes[1])] - p1;
+  const Vec3 e13 = nodes[static_cast<std::size_t>(tria.nodes[2])] - p1;
+  const Vec3 normal = e12.cross(e13);
+  if (!(normal.norm() > 1e-10 * (e12.squaredNorm() + e13.squaredNorm())))
+    throw ModelError(fmt::format("triangle element {}: its area is zero", tria.id),
+                     "Delete it, or move one of its nodes off the line through the others");
+  FlatTria f;
+  f.R.col(2) = normal.normalized();
+  f.R.col(0) = e12.normalized();
+  f.R.col(1) = f.R.col(2).cross(f.R.col(0));
+  f.x << 0.0, e12.norm(), f.R.col(0).dot(e13);
+  f.y << 0.0, 0.0, f.R.col(1).dot(e13);
+  f.A = 0.5 * normal.norm();
+  return f;
+}
+
+/// Stiffness over (u v θz), (1). Indices i, j, k are cyclic; edges 1-2, 2-3, 3-1.
+Mat9 membrane_stiffness(const ShellTheory& theory, const FlatTria& f) {
+  const double alpha_b = 1.5, beta_0 = std::max(0.5 * (1.0 - 4.0 * theory.nu * theory.nu), 0.01);
+  const auto x = [&f](int i, int j) { return f.x[i] - f.x[j]; };
+  const auto y = [&f](int i, int j) { return f.y[i] - f.y[j]; };
+
+  Eigen::Matrix<double, 9, 3> L;  // per unit thickness
+  Eigen::Matrix<double, 3, 9> T;  // hierarchical rotations
+  Mat3 natural;                   // rows: edge strain = (c², s², cs) · ε
+  Vec3 l2;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    L.row(3 * i) << y(j, k), 0.0, x(k, j);
+    L.row(3 * i + 1) << 0.0, x(k, j), y(j, k);
+    L.row(3 * i + 2) << y(j, k) * (y(i, k) - y(j, i)), x(k, j) * (x(k, i) - x(i, j)),
+        2.0 * (x(k, i) * y(i, k) - x(i, j) * y(j, i));
+    L.row(3 * i + 2) *= alpha_b / 6.0;
+    for (int row = 0; row < 3; ++row) {
+      T(row, 3 * i) = x(k, j) / (4.0 * f.A);
+      T(row, 3 * i + 1) = y(k, j) / (4.0 * f.A);
+      T(row, 3 * i + 2) = row == i ? 1.0 : 0.0;
+    }
+    l2[i] = x(j, i) * x(j, i) + y(j, i) * y(j, i);
+    natural.row(i) << x(j, i) * x(j, i), y(j, i) * y(j, i), x(j, i) * y(j, i);
+    natural.row(i) /= l2[i];
+  }
+  L *= 0.5;
+  Mat9 K = L * (theory.membrane / f.A) * L.transpose();
+
+  // natural strains at the corners per hierarchical rotation, β = (1, 2, 1, 0, 1, −1, −1, −1, −2)
+  Mat3 Q1, Q2, Q3;
+  Q1 << 1, 2, 1, 0, 1, -1, -1, -1, -2;
+  Q2 << -2, -1, -1, 1, 1, 2, -1, 0, 1;
+  Q3 << 1, -1, 0, -1, -2, -1, 2, 1, 1;
+  const Vec3 scale = (2.0 * f.A / 3.0) * l2.cwiseInverse();
+  const Mat3 inverse = natural.inverse();
+  const Mat3 C = inverse.transpose() * theory.membrane * inverse;  // natural stress = C natural strain
+  Mat3 K_theta = Mat3::Zero();
+  for (const Mat3& Q : {Mat3(0.5 * (Q1 + Q2)), Mat3(0.5 * (Q2 + Q3)), Mat3(0.5 * (Q3 + Q1))}) {  // mid-sides
+    const Mat3 SQ = scale.asDiagonal() * Q;
+    K_theta.noalias() += SQ.transpose() * C * SQ;
+  }
+  K.noalias() += T.transpose() * (0.75 * beta_0 * f.A * K_theta) * T;
+  return K;
+}
+
+/// Stiffness and mass over (w θx θy).
+void plate(const ShellTheory& theory, const FlatTria& f, Mat9& K, Mat9& M) {
+  Vec3 N_x, N_y;
+  std::array<PlateEdge, 3> edge;  // 1-2, 2-3, 3-1
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    N_x[i] = (f.y[j] - f.y[k]) / (2.0 * f.A);
+    N_y[i] = (f.x[k] - f.x[j]) / (2.0 * f.A);
+    edge[static_cast<std::size_t>(i)] = plate_edge(theory, f.x[j] - f.x[i], f.y[j] - f.y[i]);
+  }
+  K.setZero();
+  M.setZero();
+  const double dA = f.A / 3.0;
+  for (int g = 0; g < 3; ++g) {
+    Vec3 N = Vec3::Constant(1.0 / 6.0);
+    N[g] = 2.0 / 3.0;
+    Eigen::Matrix<double, 3, 9> B = Eigen::Matrix<double, 3, 9>::Zero();      // curvature
+    Eigen::Matrix<double, 2, 9> gamma = Eigen::Matrix<double, 2, 9>::Zero();  // shear
+    Row9 w = Row9::Zero();                                                    // linked deflection
+    for (int i = 0; i < 3; ++i) {
+      B(0, 3 * i + 2) = N_x[i];
+      B(1, 3 * i + 1) = -N_y[i];
+      B(2, 3 * i + 1) = -N_x[i];
+      B(2, 3 * i + 2) = N_y[i];
+      w[3 * i] = N[i];
+      for (int j = 0; j < 3; ++j)
+        for (int a = 1; a < 3; ++a) M(3 * i + a, 3 * j + a) += dA * theory.rotary * N[i] * N[j];
+    }
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3;
+      const PlateEdge& e = edge[static_cast<std::size_t>(i)];
+      const double P_x = 4.0 * (N_x[i] * N[j] + N[i] * N_x[j]), P_y = 4.0 * (N_y[i] * N[j] + N[i] * N_y[j]);
+      const Vec3 kappa(P_x * e.c_dbeta, P_y * e.s_dbeta, P_y * e.c_dbeta + P_x * e.s_dbeta);
+      add_g(B, kappa, e, i, j);
+      // MITC3: the field N_i ∇N_j − N_j ∇N_i has unit tangential integral on its own edge and none on the others
+      const Eigen::Vector2d whitney(N[i] * N_x[j] - N[j] * N_x[i], N[i] * N_y[j] - N[j] * N_y[i]);
+      add_g(gamma, Eigen::Vector2d(e.shear * whitney), e, i, j);
+      add_link(w, 4.0 * N[i] * N[j], e, i, j);
+    }
+    const Eigen::Matrix<double, 3, 9> DB = dA * theory.bending * B;
+    K.noalias() += B.transpose() * DB;
+    K.noalias() += dA * theory.shear * gamma.transpose() * gamma;
+    M.noalias() += dA * theory.mass * w.transpose() * w;
+  }
+}
+
+}  // namespace
+
+void tria3_matrices(const Tria3& tria, const ShellSection& section, const Material& material,
+                    std::span<const Vec3> nodes, ElementMatrices& out) {
+  const ShellTheory theory = shell_theory(section, material, "triangle", tria.id);
+  const FlatTria flat = flatten(tria, nodes);
+  const std::array<Vec3, 3> no_arms{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+
+  const Mat9 K_membrane = membrane_stiffness(theory, flat);
+  Mat9 K_plate, M_plate, M_membrane = Mat9::Zero();
+  plate(theory, flat, K_plate, M_plate);
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)  // ∫ N_i N_j dA = A (1 + δ_ij)/12
+      M_membrane(3 * i, 3 * j) = M_membrane(3 * i + 1, 3 * j + 1) = theory.mass * flat.A * (i == j ? 2.0 : 1.0) / 12.0;
+  shell_to_basic_frame<3>(K_membrane, K_plate, flat.R, no_arms, out.K);
+  shell_to_basic_frame<3>(M_membrane, M_plate, flat.R, no_arms, out.M);
+}
+
+}  // namespace tenon::fem
