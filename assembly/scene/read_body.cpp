@@ -116,11 +116,6 @@ SceneReduction read_reduction(const Value& value) {
   return reduction;
 }
 
-bool is_deck(const std::filesystem::path& file) {
-  const std::string extension = file.extension().string();
-  return extension != ".msh";
-}
-
 FeSource read_fe(const Member& entry, const std::filesystem::path& folder, const Materials& materials,
                  const Units& units) {
   const Value& body = entry.value;

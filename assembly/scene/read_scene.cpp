@@ -111,6 +111,11 @@ Scene read_scene(const std::filesystem::path& path) {
   return scene;
 }
 
+bool is_deck(const std::filesystem::path& file) {
+  const std::string extension = file.extension().string();
+  return extension == ".bdf" || extension == ".dat" || extension == ".nas" || extension == ".blk";
+}
+
 const SceneBody& body_named(const Scene& scene, const std::string& name) {
   std::vector<std::string> names;
   for (const SceneBody& body : scene.bodies) {

@@ -1,0 +1,116 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "assembly/build.hpp"
+#include "assembly/scene/mesh_nodes.hpp"
+#include "assembly/scene/mesh_sections.hpp"
+#include "fem/formats/nastran.hpp"
+#include "fem/formats/read_mesh.hpp"
+
+namespace tenon::assembly {
+namespace {
+
+/// Mass or stiffness that was read past must be allowed by name.
+void check_losses(const std::vector<fem::Loss>& losses, const SceneBody& body, const FeSource& fe) {
+  for (const fem::Loss& loss : losses)
+    if (loss.changes_physics && std::find(fe.allow.begin(), fe.allow.end(), loss.name) == fe.allow.end())
+      throw InputError(body.place,
+                       fmt::format("body '{}': {} of {} would be read past, and it carries stiffness or mass ({})",
+                                   body.name, loss.name, fe.file.filename().string(), loss.note),
+                       fmt::format("Take it out of the file, or accept the loss with `allow: [{}]`", loss.name));
+}
+
+int add_node(fem::Model& model, const Vec3& point) {
+  const long id = -1 - static_cast<long>(std::count_if(model.node_ids.begin(), model.node_ids.end(),
+                                                       [](long existing) { return existing < 0; }));
+  model.nodes.push_back(point);
+  model.node_ids.push_back(id);
+  return static_cast<int>(model.nodes.size()) - 1;
+}
+
+/// The node of a port; a set of several nodes gets one of its own, at its centroid unless the scene says where, which
+/// the set follows rigidly or on average.
+int port_node(const ScenePort& port, const MeshNodes& nodes, fem::Model& model) {
+  if (port.where.kind != NodeSelector::Kind::set) return nodes.single(port.where);
+  const std::vector<int> set = nodes.of_set(port.where.name, port.where.place);
+  Vec3 centre = Vec3::Zero();
+  for (const int node : set) centre += model.nodes[static_cast<std::size_t>(node)] / static_cast<double>(set.size());
+  if (set.size() == 1 && (!port.where.centre || (*port.where.centre - centre).norm() == 0.0)) return set.front();
+  const int made = add_node(model, port.where.centre.value_or(centre));
+  if (port.average) {
+    fem::AverageLink link{.reference = made, .nodes = {}, .id = model.node_ids.back()};
+    for (const int node : set) link.nodes.push_back({.node = node});
+    model.average_links.push_back(std::move(link));
+  } else {
+    model.rigid_links.push_back({.independent = made, .dependents = set, .id = model.node_ids.back()});
+  }
+  return made;
+}
+
+void add_supports(const FeSource& fe, const MeshNodes& nodes, fem::Model& model) {
+  for (const SceneSupport& support : fe.supports)
+    for (const int node : nodes.of_set(support.set, support.place))
+      for (int k = 0; k < 6; ++k)
+        if (support.directions >> k & 1) model.supports.push_back({{node, k}});
+}
+
+void add_masses(const FeSource& fe, const MeshNodes& nodes, fem::Model& model) {
+  for (const SceneNodeMass& mass : fe.masses) {
+    int node = -1;
+    if (mass.where.kind == NodeSelector::Kind::port) {
+      std::vector<std::string> names;
+      for (const fem::Port& port : model.ports) {
+        names.push_back(port.name);
+        if (port.name == mass.where.name) node = port.node;
+      }
+      if (node < 0) {
+        const std::string near = fem::near_miss(mass.where.name, names);
+        throw InputError(mass.where.place,
+                         fmt::format("mass '{}' sits on the unknown port '{}'", mass.name, mass.where.name),
+                         near.empty() ? fmt::format("Ports are: {}", fmt::join(names, ", "))
+                                      : fmt::format("Did you mean '{}'?", near));
+      }
+    } else {
+      node = nodes.single(mass.where);
+    }
+    model.elements.push_back(
+        fem::PointMass{.node = node, .mass = mass.mass, .inertia = mass.inertia, .offset = mass.offset});
+  }
+}
+
+fem::Model read_deck(const FeSource& fe, fem::Mesh& mesh) {
+  fem::NastranDeck deck = fem::read_nastran(fe.file, {.allow_losses = !fe.allow.empty(), .spc_set = {}, .mpc_set = {}});
+  mesh = std::move(deck.mesh);
+  fem::Model model = to_si(std::move(deck.model), fe.units);
+  if (fe.beam_mass)
+    for (fem::Element& element : model.elements)
+      if (auto* beam = std::get_if<fem::Beam>(&element)) beam->mass = *fe.beam_mass;
+  return model;
+}
+
+}  // namespace
+
+fem::Model build_model(const SceneBody& body) {
+  const auto* fe = std::get_if<FeSource>(&body.source);
+  if (!fe)
+    throw InputError(body.place, fmt::format("body '{}' has no mesh", body.name), "Only a body with `fe` has a model");
+  fem::Mesh mesh;
+  fem::Model model;
+  if (is_deck(fe->file)) {
+    model = read_deck(*fe, mesh);
+  } else {
+    mesh = fem::read_mesh(fe->file);
+    model = elements_of(mesh, body, *fe);
+  }
+  check_losses(model.losses, body, *fe);
+
+  const fem::Model structure = model;  // ports look nodes up in the structure as read, while the model grows
+  const MeshNodes nodes(mesh, structure);
+  for (const ScenePort& port : body.ports) model.ports.push_back({port.name, port_node(port, nodes, model), port.axes});
+  add_supports(*fe, nodes, model);
+  add_masses(*fe, nodes, model);
+  return model;
+}
+
+}  // namespace tenon::assembly

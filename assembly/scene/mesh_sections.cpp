@@ -1,0 +1,202 @@
+#include "assembly/scene/mesh_sections.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace tenon::assembly {
+namespace {
+
+using fem::CellBlock;
+using fem::CellType;
+using fem::Mesh;
+
+/// Per block, per cell: the index of its section, or −1.
+using Cover = std::vector<std::vector<int>>;
+
+int dimension_of(const SceneSection& section) {
+  return std::holds_alternative<fem::BeamSection>(section.shape) ? 1 : 2;
+}
+
+const char* cells_of_dimension(int dimension) {
+  return dimension == 1 ? "lines" : dimension == 2 ? "triangles or quadrilaterals" : "solids";
+}
+
+/// Sets that the scene uses for something else than structure.
+std::set<std::string> explained_sets(const SceneBody& body, const FeSource& fe) {
+  std::set<std::string> names(fe.ignore.begin(), fe.ignore.end());
+  for (const ScenePort& port : body.ports)
+    if (port.where.kind == NodeSelector::Kind::set) names.insert(port.where.name);
+  for (const SceneSupport& support : fe.supports) names.insert(support.set);
+  for (const SceneNodeMass& mass : fe.masses)
+    if (mass.where.kind == NodeSelector::Kind::set) names.insert(mass.where.name);
+  return names;
+}
+
+void cover_set(const Mesh& mesh, const FeSource& fe, int index, Cover& cover) {
+  const SceneSection& section = fe.sections[static_cast<std::size_t>(index)];
+  const auto found = mesh.cell_sets.find(section.set);
+  if (found == mesh.cell_sets.end()) {
+    if (mesh.point_sets.contains(section.set))
+      throw InputError(section.place, fmt::format("set '{}' holds points and no cells", section.set),
+                       "Name a set of cells");
+    std::vector<std::string> names;
+    for (const auto& [name, cells] : mesh.cell_sets) names.push_back(name);
+    const std::string near = fem::near_miss(section.set, names);
+    throw InputError(section.place, fmt::format("{} has no set of cells '{}'", mesh.source, section.set),
+                     !near.empty()   ? fmt::format("Did you mean '{}'?", near)
+                     : names.empty() ? "It names no sets; write `everywhere` for all cells"
+                                     : fmt::format("Its sets are: {}", fmt::join(names, ", ")));
+  }
+  int covered = 0;
+  for (std::size_t b = 0; b < found->second.size(); ++b) {
+    if (fem::dimension(mesh.cells[b].type) != dimension_of(section)) continue;
+    for (const int cell : found->second[b]) {
+      int& owner = cover[b][static_cast<std::size_t>(cell)];
+      if (owner >= 0 && owner != index)
+        throw InputError(
+            section.place,
+            fmt::format("sections '{}' and '{}' both name cell {}", fe.sections[static_cast<std::size_t>(owner)].set,
+                        section.set, mesh.cells[b].ids[static_cast<std::size_t>(cell)]),
+            "Let the sets of sections not overlap, or leave one of the two out");
+      owner = index;
+      ++covered;
+    }
+  }
+  if (covered == 0)
+    throw InputError(section.place,
+                     fmt::format("set '{}' holds no {}", section.set, cells_of_dimension(dimension_of(section))),
+                     "Give shells to surfaces and beam sections to lines");
+}
+
+/// Marks the cells of the named sets.
+std::vector<std::vector<bool>> cells_of_sets(const Mesh& mesh, const std::set<std::string>& sets) {
+  std::vector<std::vector<bool>> marks;
+  for (const CellBlock& block : mesh.cells) marks.emplace_back(static_cast<std::size_t>(block.size()), false);
+  for (const std::string& set : sets)
+    if (const auto found = mesh.cell_sets.find(set); found != mesh.cell_sets.end())
+      for (std::size_t b = 0; b < found->second.size(); ++b)
+        for (const int cell : found->second[b]) marks[b][static_cast<std::size_t>(cell)] = true;
+  return marks;
+}
+
+/// The set names of one cell, for a message.
+std::string sets_of_cell(const Mesh& mesh, std::size_t block, int cell) {
+  std::vector<std::string> names;
+  for (const auto& [name, cells] : mesh.cell_sets)
+    if (block < cells.size() && std::find(cells[block].begin(), cells[block].end(), cell) != cells[block].end())
+      names.push_back(fmt::format("'{}'", name));
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+[[noreturn]] void refuse_uncovered(const Mesh& mesh, const SceneBody& body, const Cover& cover,
+                                   const std::vector<std::vector<bool>>& explained, std::size_t block, int cell) {
+  const std::string sets = sets_of_cell(mesh, block, cell);
+  const CellBlock& cells = mesh.cells[block];
+  long count = 0;
+  for (std::size_t k = 0; k < cover[block].size(); ++k)
+    if (cover[block][k] < 0 && !explained[block][k]) ++count;
+  const bool solid = fem::dimension(cells.type) == 3;
+  throw InputError(
+      body.place,
+      fmt::format("body '{}': {} {} cells of {} have no section; the first is cell {}{}", body.name, count,
+                  fem::name(cells.type), mesh.source, cells.ids[static_cast<std::size_t>(cell)],
+                  sets.empty() ? " (in no set)" : fmt::format(" of set {}", sets)),
+      solid          ? "Solid elements are not among the elements of this version: mesh the part with shells and beams"
+      : sets.empty() ? "Add `everywhere: {...}` under sections, or save only physical groups in the mesh"
+                     : "Add the set under `sections`, or under `ignore` if it carries no structure");
+}
+
+void check_type(const CellBlock& block, const SceneSection& section, const Mesh& mesh) {
+  const bool linear = block.type == CellType::line || block.type == CellType::triangle || block.type == CellType::quad;
+  if (!linear)
+    throw InputError(section.place,
+                     fmt::format("set '{}' of {} holds {} cells, which have no element here", section.set, mesh.source,
+                                 fem::name(block.type)),
+                     "Mesh it with first-order cells (gmsh -order 1)");
+}
+
+/// Any direction that is not along the beam will do for a round section.
+Vec3 across(const Vec3& along) {
+  Eigen::Index least = 0;
+  along.cwiseAbs().minCoeff(&least);
+  return Vec3::Unit(least);
+}
+
+fem::Element make_element(const CellBlock& block, int cell, const SceneSection& section, int shape, int material,
+                          const fem::Model& model, fem::BeamMass beam_mass) {
+  const int* nodes = &block.nodes[static_cast<std::size_t>(cell * fem::node_count(block.type))];
+  const long id = block.ids[static_cast<std::size_t>(cell)];
+  if (block.type == CellType::triangle)
+    return fem::Tria3{.nodes = {nodes[0], nodes[1], nodes[2]}, .section = shape, .material = material, .id = id};
+  if (block.type == CellType::quad)
+    return fem::Quad4{
+        .nodes = {nodes[0], nodes[1], nodes[2], nodes[3]}, .section = shape, .material = material, .id = id};
+  const Vec3 along = model.nodes[static_cast<std::size_t>(nodes[1])] - model.nodes[static_cast<std::size_t>(nodes[0])];
+  return fem::Beam{.nodes = {nodes[0], nodes[1]},
+                   .section = shape,
+                   .material = material,
+                   .orientation = section.orientation.value_or(across(along)),
+                   .offsets = {section.offset, section.offset},
+                   .mass = beam_mass,
+                   .rotary_inertia = section.rotary_inertia,
+                   .id = id};
+}
+
+Cover cover_cells(const Mesh& mesh, const SceneBody& body, const FeSource& fe) {
+  Cover cover;
+  for (const CellBlock& block : mesh.cells) cover.emplace_back(static_cast<std::size_t>(block.size()), -1);
+  for (std::size_t k = 0; k < fe.sections.size(); ++k)
+    if (fe.sections[k].set != "everywhere") cover_set(mesh, fe, static_cast<int>(k), cover);
+
+  const auto explained = cells_of_sets(mesh, explained_sets(body, fe));
+  for (std::size_t b = 0; b < mesh.cells.size(); ++b) {
+    const int dimension = fem::dimension(mesh.cells[b].type);
+    if (dimension == 0) continue;
+    for (std::size_t k = 0; k < cover[b].size(); ++k) {
+      if (cover[b][k] >= 0 || explained[b][k]) continue;
+      for (std::size_t s = 0; s < fe.sections.size(); ++s)
+        if (fe.sections[s].set == "everywhere" && dimension_of(fe.sections[s]) == dimension)
+          cover[b][k] = static_cast<int>(s);
+      if (cover[b][k] < 0) refuse_uncovered(mesh, body, cover, explained, b, static_cast<int>(k));
+    }
+  }
+  return cover;
+}
+
+}  // namespace
+
+fem::Model elements_of(const Mesh& mesh, const SceneBody& body, const FeSource& fe) {
+  const Cover cover = cover_cells(mesh, body, fe);
+  fem::Model model;
+  model.source = mesh.source;
+  model.node_ids = mesh.point_ids;
+  model.losses = mesh.losses;
+  for (const Vec3& point : mesh.points) model.nodes.push_back(fe.units.length * point);
+
+  std::vector<int> shape;  // of each section: index among the model's beam or shell sections
+  for (const SceneSection& section : fe.sections) {
+    model.materials.push_back(section.material);
+    if (const auto* beam = std::get_if<fem::BeamSection>(&section.shape)) {
+      shape.push_back(static_cast<int>(model.beam_sections.size()));
+      model.beam_sections.push_back(*beam);
+    } else {
+      shape.push_back(static_cast<int>(model.shell_sections.size()));
+      model.shell_sections.push_back(std::get<fem::ShellSection>(section.shape));
+    }
+  }
+  const fem::BeamMass beam_mass = fe.beam_mass.value_or(fem::BeamMass::high_order);
+  for (std::size_t b = 0; b < mesh.cells.size(); ++b)
+    for (std::size_t k = 0; k < cover[b].size(); ++k) {
+      if (cover[b][k] < 0) continue;
+      const auto s = static_cast<std::size_t>(cover[b][k]);
+      check_type(mesh.cells[b], fe.sections[s], mesh);
+      model.elements.push_back(make_element(mesh.cells[b], static_cast<int>(k), fe.sections[s], shape[s],
+                                            static_cast<int>(s), model, beam_mass));
+    }
+  return model;
+}
+
+}  // namespace tenon::assembly

@@ -1,0 +1,163 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <numbers>
+
+#include "assembly/build.hpp"
+#include "temporary_scene.hpp"
+
+namespace tenon::assembly {
+namespace {
+
+using testing::HasSubstr;
+
+/// Two quadrilaterals of a strip along x, a beam from the origin to it, and three points of interest.
+///   1 ──yoke── 2 ┬── 3 ┬── 4     y = 0
+///                5 ┴── 6 ┴── 7     y = 1 (above in the plane)
+const char* const mesh = R"($MeshFormat
+2.2 0 8
+$EndMeshFormat
+$PhysicalNames
+5
+0 1 "root"
+0 2 "tip"
+1 3 "yoke"
+1 5 "edge"
+2 4 "skin"
+$EndPhysicalNames
+$Nodes
+8
+1 0 0 0
+2 1000 0 0
+3 2000 0 0
+4 3000 0 0
+5 1000 1000 0
+6 2000 1000 0
+7 3000 1000 0
+8 9000 0 0
+$EndNodes
+$Elements
+6
+1 15 2 1 1 1
+2 15 2 2 2 7
+3 1 2 3 1 1 2
+4 1 2 5 2 4 7
+5 3 2 4 1 2 3 6 5
+6 3 2 4 1 3 4 7 6
+$EndElements
+)";
+
+const std::string scene_text = R"(units: {length: mm, mass: t, time: s}
+bodies:
+  panel:
+    fe: panel.msh
+    material: {E: 70e3, nu: 0.33, rho: 2.7e-9}
+    sections: {skin: {shell: 20}, yoke: {circle: 50}}
+    ports: {root: {set: root}, rim: {set: edge, at: [3000, 500, 0]}, mean: {set: edge, kind: average}, near: {nearest: [2100, 10, 0]}}
+    fix: {tip: [x, rz]}
+    masses: {lamp: {port: rim, mass: 0.001}, bolt: {node: 3, mass: 0.002}}
+)";
+
+class BuildModel : public testing::Test {
+ protected:
+  BuildModel() { folder_.write("panel.msh", mesh); }
+
+  fem::Model build(const std::string& text) const {
+    return build_model(read_scene(folder_.write("scene.yaml", text)).bodies[0]);
+  }
+  static std::string with(const std::string& from, const std::string& to) {
+    std::string text = scene_text;
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return text.replace(at, from.size(), to);
+  }
+  /// The message when `from` becomes `to`.
+  std::string fault(const std::string& from, const std::string& to) const {
+    try {
+      build(with(from, to));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "built without complaint";
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(BuildModel, GivesEveryCellItsSectionInSI) {
+  const fem::Model model = build(scene_text);
+  EXPECT_NEAR(model.nodes[3].x(), 3.0, 1e-15);
+  ASSERT_EQ(model.elements.size(), 5u);  // a beam, two shells, two masses
+  const auto& beam = std::get<fem::Beam>(model.elements[0]);
+  EXPECT_EQ(beam.id, 3);
+  EXPECT_NEAR(std::abs(beam.orientation.normalized().x()), 0.0, 1e-15);  // across the beam
+  EXPECT_EQ(std::get<fem::Quad4>(model.elements[1]).nodes, (std::array<int, 4>{1, 2, 5, 4}));
+  EXPECT_NEAR(model.shell_sections[0].thickness, 0.02, 1e-16);
+  EXPECT_NEAR(model.materials[0].E, 70e9, 1.0);
+  EXPECT_NEAR(model.beam_sections[0].A, std::numbers::pi * 0.05 * 0.05, 1e-16);
+}
+
+TEST_F(BuildModel, PutsPortsWhereTheSceneSays) {
+  const fem::Model model = build(scene_text);
+  ASSERT_EQ(model.ports.size(), 4u);
+  EXPECT_EQ(model.ports[0].node, 0);  // a set of one node is that node
+  const auto& rim = model.rigid_links.at(0);
+  EXPECT_EQ(rim.independent, model.ports[1].node);
+  EXPECT_EQ(rim.dependents, (std::vector<int>{3, 6}));
+  EXPECT_NEAR((model.nodes[static_cast<std::size_t>(rim.independent)] - Vec3(3.0, 0.5, 0.0)).norm(), 0.0, 1e-15);
+  EXPECT_LT(model.node_ids[static_cast<std::size_t>(rim.independent)], 0);
+  const auto& mean = model.average_links.at(0);
+  EXPECT_EQ(mean.reference, model.ports[2].node);
+  EXPECT_EQ(mean.nodes.size(), 2u);
+  EXPECT_EQ(model.ports[3].node, 2);
+}
+
+TEST_F(BuildModel, AddsSupportsAndMasses) {
+  const fem::Model model = build(scene_text);
+  ASSERT_EQ(model.supports.size(), 2u);
+  EXPECT_EQ(model.supports[0].dof.node, 6);
+  EXPECT_EQ(model.supports[1].dof.direction, 5);
+  const auto& lamp = std::get<fem::PointMass>(model.elements[3]);
+  EXPECT_EQ(lamp.node, model.ports[1].node);
+  EXPECT_NEAR(lamp.mass, 1.0, 1e-15);
+  EXPECT_EQ(std::get<fem::PointMass>(model.elements[4]).node, 2);
+}
+
+TEST_F(BuildModel, TakesEverywhereForWhatNoOtherSectionNames) {
+  const fem::Model model = build(with("skin: {shell: 20}", "everywhere: {shell: 20}"));
+  EXPECT_EQ(model.elements.size(), 5u);
+}
+
+TEST_F(BuildModel, RefusesWhatDoesNotFitTheMesh) {
+  EXPECT_THAT(fault("yoke: {circle: 50}", "yok: {circle: 50}"),
+              testing::AllOf(HasSubstr("scene.yaml:6:"), HasSubstr("no set of cells 'yok'"), HasSubstr("'yoke'?")));
+  EXPECT_THAT(fault(", yoke: {circle: 50}", ""),
+              testing::AllOf(HasSubstr("scene.yaml:3:3"), HasSubstr("1 line cells of"), HasSubstr("set 'yoke'"),
+                             HasSubstr("under `ignore`")));
+  EXPECT_THAT(fault("yoke: {circle: 50}", "yoke: {shell: 5}"), HasSubstr("'yoke' holds no triangles"));
+  EXPECT_THAT(fault("yoke: {circle: 50}", "yoke: {circle: 50}, root: {circle: 5}"), HasSubstr("'root' holds no lines"));
+  EXPECT_THAT(fault("{set: root}", "{set: rot}"),
+              testing::AllOf(HasSubstr("scene.yaml:7:"), HasSubstr("no set 'rot'"), HasSubstr("Did you mean 'root'?")));
+  EXPECT_THAT(
+      fault("{nearest: [2100, 10, 0]}", "{at: [2100, 10, 0]}"),
+      testing::AllOf(HasSubstr("no node at (2.1, 0.01, 0) m"), HasSubstr("node 3 is nearest"), HasSubstr("`nearest`")));
+  EXPECT_THAT(fault("{nearest: [2100, 10, 0]}", "{node: 99}"), HasSubstr("there is no node 99"));
+  EXPECT_THAT(fault("{nearest: [2100, 10, 0]}", "{node: 8}"), HasSubstr("no element uses node 8"));
+  EXPECT_THAT(fault("{port: rim,", "{port: rum,"), HasSubstr("Did you mean 'rim'?"));
+  EXPECT_THAT(fault("fe: panel.msh", "fe: absent.msh"), HasSubstr("absent.msh"));
+}
+
+TEST_F(BuildModel, RefusesCellsWithTwoSections) {
+  std::string text = mesh;
+  text.replace(text.find("5 3 2 4 1 2 3 6 5"), 17, "5 3 2 4 1 2 3 6 5\n7 3 2 6 1 2 3 6 5");
+  text.replace(text.find("6\n1 15"), 1, "7");
+  text.replace(text.find("5\n0 1"), 1, "6");
+  text.replace(text.find("2 4 \"skin\""), 10, "2 4 \"skin\"\n2 6 \"patch\"");
+  folder_.write("panel.msh", text);
+  EXPECT_THAT(fault("yoke: {circle: 50}", "yoke: {circle: 50}, patch: {shell: 1}"),
+              HasSubstr("sections 'skin' and 'patch' both name cell"));
+}
+
+}  // namespace
+}  // namespace tenon::assembly
