@@ -24,16 +24,35 @@ struct StateSpace {
 /// Sizes of A, B, C, D and names agree; throws ModelError.
 void check(const StateSpace& ss);
 
-/// G(jω) = D + C (jω − A)⁻¹ B.
+/// G(jω) = D + C (jω − A)⁻¹ B. Throws NumericalError when jω is a pole to working precision.
 Eigen::MatrixXcd response(const StateSpace& ss, double omega);
 
-/// The rows `outputs` and columns `inputs` of a system.
+/// The rows `outputs` and columns `inputs` of a system, G_{I,J}(s) of the TITOP paper, appendix 1.
 StateSpace subsystem(const StateSpace& ss, const std::vector<int>& outputs, const std::vector<int>& inputs);
 
 /// Block-diagonal union of systems.
 StateSpace append(const std::vector<StateSpace>& systems);
 
-/// Closes u = F y + v: inputs stay (v), outputs stay (y). Throws NumericalError when 1 − F D is singular to working
+/// A system and the worst condition number met on the way to it.
+struct Connection {
+  StateSpace ss;
+  double condition = 1.0;  ///< of the equilibrated loop matrix 1 − D F
+};
+
+/// The wiring u = F y + E v, z = H y + J v around a system y = G u: the system from v to z.
+struct Wiring {
+  Eigen::MatrixXd F;  ///< inputs×outputs of the system
+  Eigen::MatrixXd E;  ///< inputs×new inputs
+  Eigen::MatrixXd H;  ///< new outputs×outputs
+  Eigen::MatrixXd J;  ///< new outputs×new inputs
+  std::vector<Channel> inputs, outputs;
+};
+
+/// Closes a wiring. Throws NumericalError when the equilibrated 1 − D F has a condition above `limit`: the loop then
+/// has no residual inertia that determines its algebraic part.
+Connection connect(const StateSpace& ss, const Wiring& wiring, double limit = 1e14);
+
+/// Closes u = F y + v: inputs stay (v), outputs stay (y). Throws NumericalError when 1 − D F is singular to working
 /// precision (after equilibration).
 StateSpace feedback(const StateSpace& ss, const Eigen::MatrixXd& F);
 
@@ -48,8 +67,10 @@ struct Inversion {
   double condition = 1.0;  ///< of the equilibrated D(I, I)
 };
 
-/// Throws NumericalError (naming the channels and what to do) when the equilibrated D(I, I) has a condition above
-/// `limit`.
+/// Inverts the channels `I` (0-based, each once); the system may have further inputs or outputs. D(I, I) is the
+/// residual mobility or mass of the channels: where it is zero (a direction without modal content) or the equilibrated
+/// block has a condition above `limit`, NumericalError names the channels and the cure: keep the static modes of the
+/// port, add an inertia, or use the second-order route.
 Inversion invert_channels(const StateSpace& ss, const std::vector<int>& I, double limit = 1e14);
 
 }  // namespace tenon::titop
