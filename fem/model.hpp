@@ -149,8 +149,9 @@ struct Port {
 
 struct Model {
   std::string source;
-  std::vector<Vec3> nodes;     ///< [m]
-  std::vector<long> node_ids;  ///< the file's numbers, for messages; < 0 for nodes made here
+  std::vector<Vec3> nodes;         ///< [m]
+  std::vector<long> node_ids;      ///< the file's numbers, for messages; < 0 for nodes made here
+  std::vector<int> scalar_points;  ///< nodes that are one scalar dof (direction 0), without position
   std::vector<Material> materials;
   std::vector<BeamSection> beam_sections;
   std::vector<ShellSection> shell_sections;

@@ -42,6 +42,7 @@ struct Structure {
   DofMap dofs;
   std::vector<Vec3> nodes;  ///< positions [m]
   std::vector<long> node_ids;
+  std::vector<int> scalar_points;  ///< nodes that are one scalar dof: they do not move with a rigid body
   std::vector<Port> ports;
 
   int n() const { return static_cast<int>(K.rows()); }

@@ -87,6 +87,7 @@ int scalar_node(Draft& draft, const Card& card, long id) {
   }
   const int node = draft.make_node(place, id);
   draft.scalar_node.emplace(id, node);
+  draft.deck.model.scalar_points.push_back(node);
   return node;
 }
 

@@ -1,0 +1,279 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <exception>
+#include <numeric>
+#include <optional>
+
+#include "fem/constraints.hpp"
+#include "fem/elements/beam.hpp"
+#include "fem/elements/point_mass.hpp"
+#include "fem/elements/shell.hpp"
+#include "fem/elements/spring.hpp"
+#include "fem/error.hpp"
+#include "fem/sparsity.hpp"
+#include "fem/structure.hpp"
+
+namespace tenon::fem {
+namespace {
+
+template <class... F>
+struct Overloaded : F... {
+  using F::operator()...;
+};
+
+/// The full dofs of an element in the order of its matrices, at most 24.
+struct FullDofs {
+  std::array<int, ElementMatrices::max_dofs> dof{};
+  int size = 0;
+
+  void add_node(int node) {
+    for (int d = 0; d < 6; ++d) dof[static_cast<std::size_t>(size++)] = 6 * node + d;
+  }
+};
+
+FullDofs full_dofs(const Element& element) {
+  FullDofs dofs;
+  std::visit(Overloaded{[&](const PointMass& e) { dofs.add_node(e.node); },
+                        [&](const Spring& e) {
+                          dofs.dof[static_cast<std::size_t>(dofs.size++)] = 6 * e.node_a + e.dof_a;
+                          if (e.node_b >= 0) dofs.dof[static_cast<std::size_t>(dofs.size++)] = 6 * e.node_b + e.dof_b;
+                        },
+                        [&](const auto& e) {
+                          for (const int node : e.nodes) dofs.add_node(node);
+                        }},
+             element);
+  return dofs;
+}
+
+void element_matrices(const Model& model, const Element& element, ElementMatrices& out) {
+  const auto material = [&](int i) -> const Material& { return model.materials[static_cast<std::size_t>(i)]; };
+  const auto shell = [&](int i) -> const ShellSection& { return model.shell_sections[static_cast<std::size_t>(i)]; };
+  std::visit(
+      Overloaded{[&](const Beam& e) {
+                   beam_matrices(e, model.beam_sections[static_cast<std::size_t>(e.section)], material(e.material),
+                                 model.nodes, out);
+                 },
+                 [&](const Quad4& e) { quad4_matrices(e, shell(e.section), material(e.material), model.nodes, out); },
+                 [&](const Tria3& e) { tria3_matrices(e, shell(e.section), material(e.material), model.nodes, out); },
+                 [&](const PointMass& e) { point_mass_matrices(e, out); },
+                 [&](const Spring& e) { spring_matrices(e, out); }},
+      element);
+}
+
+std::vector<char> used_dofs(const Model& model) {
+  std::vector<char> used(6 * model.nodes.size(), 0);
+  for (const Element& element : model.elements) {
+    const FullDofs dofs = full_dofs(element);
+    for (int i = 0; i < dofs.size; ++i) used[static_cast<std::size_t>(dofs.dof[static_cast<std::size_t>(i)])] = 1;
+  }
+  return used;
+}
+
+ElementDofs free_dofs(const Model& model, const DofMap& map) {
+  ElementDofs elements;
+  elements.start.reserve(model.elements.size() + 1);
+  elements.start.push_back(0);
+  std::vector<int> list;
+  for (const Element& element : model.elements) {
+    const FullDofs dofs = full_dofs(element);
+    list.clear();
+    for (int i = 0; i < dofs.size; ++i) {
+      const auto f = static_cast<std::size_t>(dofs.dof[static_cast<std::size_t>(i)]);
+      for (int t = map.start[f]; t < map.start[f + 1]; ++t) list.push_back(map.terms[static_cast<std::size_t>(t)].free);
+    }
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+    elements.dofs.insert(elements.dofs.end(), list.begin(), list.end());
+    elements.start.push_back(static_cast<int>(elements.dofs.size()));
+  }
+  return elements;
+}
+
+/// Adds T_eᵀ A T_e of one element after the other; its scratch lives as long as the assembly.
+class Scatter {
+ public:
+  Scatter(const DofMap& map, SparseMatrix& K, SparseMatrix& M) : map_(map), K_(K), M_(M) {}
+
+  void add(const FullDofs& dofs, std::span<const int> free, const ElementMatrices& e) {
+    const auto n = static_cast<Eigen::Index>(free.size());
+    if (n == 0) return;
+    if (plain(dofs)) {
+      for (int i = 0; i < dofs.size; ++i) local_[static_cast<std::size_t>(i)] = term(dofs, i).free;
+      add_plain(dofs.size, e);
+      return;
+    }
+    T_.setZero(dofs.size, n);
+    for (int i = 0; i < dofs.size; ++i) {
+      const auto f = static_cast<std::size_t>(dofs.dof[static_cast<std::size_t>(i)]);
+      for (int t = map_.start[f]; t < map_.start[f + 1]; ++t) {
+        const DofMap::Term& s = map_.terms[static_cast<std::size_t>(t)];
+        T_(i, std::lower_bound(free.begin(), free.end(), s.free) - free.begin()) += s.coefficient;
+      }
+    }
+    KT_.noalias() = e.K * T_;
+    MT_.noalias() = e.M * T_;
+    TKT_.noalias() = T_.transpose() * KT_;
+    TMT_.noalias() = T_.transpose() * MT_;
+    for (Eigen::Index b = 0; b < n; ++b) {
+      const int j = free[static_cast<std::size_t>(b)];
+      int at = K_.outerIndexPtr()[j];
+      for (Eigen::Index a = b; a < n; ++a) {
+        at = position(free[static_cast<std::size_t>(a)], j, at);
+        K_.valuePtr()[at] += TKT_(a, b);
+        M_.valuePtr()[at] += TMT_(a, b);
+      }
+    }
+  }
+
+ private:
+  const DofMap::Term& term(const FullDofs& dofs, int i) const {
+    return map_
+        .terms[static_cast<std::size_t>(map_.start[static_cast<std::size_t>(dofs.dof[static_cast<std::size_t>(i)])])];
+  }
+
+  /// Every dof is itself free.
+  bool plain(const FullDofs& dofs) const {
+    for (int i = 0; i < dofs.size; ++i) {
+      const auto f = static_cast<std::size_t>(dofs.dof[static_cast<std::size_t>(i)]);
+      if (map_.start[f + 1] - map_.start[f] != 1 || term(dofs, i).coefficient != 1.0) return false;
+    }
+    return true;
+  }
+
+  /// Index of (i, j) in column j, searched from `from`; i is there by construction.
+  int position(int i, int j, int from) const {
+    const int* rows = K_.innerIndexPtr();
+    return static_cast<int>(std::lower_bound(rows + from, rows + K_.outerIndexPtr()[j + 1], i) - rows);
+  }
+
+  void add_plain(int n, const ElementMatrices& e) {
+    std::array<int, ElementMatrices::max_dofs> order{};
+    std::iota(order.begin(), order.begin() + n, 0);
+    std::sort(order.begin(), order.begin() + n, [this](int a, int b) {
+      return local_[static_cast<std::size_t>(a)] < local_[static_cast<std::size_t>(b)];
+    });
+    for (int b = 0; b < n; ++b) {
+      const int local_j = order[static_cast<std::size_t>(b)];
+      const int j = local_[static_cast<std::size_t>(local_j)];
+      int at = K_.outerIndexPtr()[j];
+      for (int a = b; a < n; ++a) {
+        const int local_i = order[static_cast<std::size_t>(a)];
+        at = position(local_[static_cast<std::size_t>(local_i)], j, at);
+        K_.valuePtr()[at] += e.K(local_i, local_j);
+        M_.valuePtr()[at] += e.M(local_i, local_j);
+      }
+    }
+  }
+
+  const DofMap& map_;
+  SparseMatrix& K_;
+  SparseMatrix& M_;
+  std::array<int, ElementMatrices::max_dofs> local_{};
+  Eigen::MatrixXd T_, KT_, MT_, TKT_, TMT_;
+};
+
+/// Element matrices are computed side by side in chunks and added in the order of the elements: the sums do not depend
+/// on the number of threads.
+void add_elements(const Model& model, const DofMap& map, const ElementDofs& elements, SparseMatrix& K,
+                  SparseMatrix& M) {
+  constexpr std::size_t chunk = 256;
+  std::vector<ElementMatrices> matrices(std::min(chunk, model.elements.size()));
+  Scatter scatter(map, K, M);
+  for (std::size_t first = 0; first < model.elements.size(); first += chunk) {
+    const std::size_t count = std::min(chunk, model.elements.size() - first);
+    std::vector<std::exception_ptr> faults(1);
+    std::size_t faulty = count;
+#pragma omp parallel for schedule(static)
+    for (std::size_t i = 0; i < count; ++i) {
+      try {
+        element_matrices(model, model.elements[first + i], matrices[i]);
+      } catch (...) {
+#pragma omp critical(tenon_element_fault)
+        if (i < faulty) {
+          faulty = i;
+          faults.front() = std::current_exception();
+        }
+      }
+    }
+    if (faults.front()) std::rethrow_exception(faults.front());
+    for (std::size_t i = 0; i < count; ++i)
+      scatter.add(full_dofs(model.elements[first + i]), elements.of(first + i), matrices[i]);
+  }
+}
+
+/// Rows that got neither stiffness nor mass are taken out (a port's rows stay, so that reduction can say what is
+/// missing).
+void drop_empty_rows(const Model& model, Structure& s) {
+  const Eigen::VectorXd k = s.K.diagonal(), m = s.M.diagonal();
+  std::vector<char> is_port(model.nodes.size(), 0);
+  for (const Port& port : model.ports) is_port[static_cast<std::size_t>(port.node)] = 1;
+  std::vector<int> kept(static_cast<std::size_t>(s.n()), -1);
+  DofMap& map = s.dofs;
+  std::vector<Dof> free;
+  std::vector<std::string> names;
+  for (int i = 0; i < s.n(); ++i) {
+    const auto u = static_cast<std::size_t>(i);
+    if (k(i) == 0.0 && m(i) == 0.0 && is_port[static_cast<std::size_t>(map.free[u].node)] == 0) {
+      map.unused.push_back(map.free[u]);
+      continue;
+    }
+    kept[u] = static_cast<int>(free.size());
+    free.push_back(map.free[u]);
+    names.push_back(std::move(map.names[u]));
+  }
+  map.names = std::move(names);
+  if (free.size() == map.free.size()) return;
+  std::vector<int> start{0};
+  std::vector<DofMap::Term> terms;
+  for (std::size_t f = 0; f + 1 < map.start.size(); ++f) {
+    for (int t = map.start[f]; t < map.start[f + 1]; ++t) {
+      DofMap::Term term = map.terms[static_cast<std::size_t>(t)];
+      term.free = kept[static_cast<std::size_t>(term.free)];
+      if (term.free >= 0) terms.push_back(term);
+    }
+    start.push_back(static_cast<int>(terms.size()));
+  }
+  map.start = std::move(start);
+  map.terms = std::move(terms);
+  const auto restrict = [&](const SparseMatrix& A) {
+    std::vector<Eigen::Triplet<double>> entries;
+    entries.reserve(static_cast<std::size_t>(A.nonZeros()));
+    for (int j = 0; j < A.outerSize(); ++j)
+      for (SparseMatrix::InnerIterator it(A, j); it; ++it)
+        if (const int a = kept[static_cast<std::size_t>(it.row())], b = kept[static_cast<std::size_t>(j)];
+            a >= 0 && b >= 0)
+          entries.emplace_back(a, b, it.value());
+    SparseMatrix result(static_cast<Eigen::Index>(free.size()), static_cast<Eigen::Index>(free.size()));
+    result.setFromTriplets(entries.begin(), entries.end());
+    return result;
+  };
+  s.K = restrict(s.K);
+  s.M = restrict(s.M);
+  map.free = std::move(free);
+}
+
+}  // namespace
+
+Structure assemble(const Model& model) {
+  if (model.elements.empty())
+    throw ModelError(fmt::format("{}: the model has no elements", model.source),
+                     "Give sections to the mesh's lines and surfaces, or check the set names");
+  Structure s;
+  s.dofs = eliminate_constraints(model, used_dofs(model));
+  const ElementDofs elements = free_dofs(model, s.dofs);
+  const LowerPattern pattern = lower_pattern(elements, s.dofs.n_free());
+  s.K = zeros(pattern);
+  s.M = zeros(pattern);
+  add_elements(model, s.dofs, elements, s.K, s.M);
+  s.K.prune([](Eigen::Index, Eigen::Index, double value) { return value != 0.0; });
+  s.M.prune([](Eigen::Index, Eigen::Index, double value) { return value != 0.0; });
+  s.nodes = model.nodes;
+  s.node_ids = model.node_ids;
+  s.scalar_points = model.scalar_points;
+  s.ports = model.ports;
+  drop_empty_rows(model, s);
+  return s;
+}
+
+}  // namespace tenon::fem

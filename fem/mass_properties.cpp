@@ -1,0 +1,130 @@
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "fem/structure.hpp"
+
+namespace tenon::fem {
+namespace {
+
+/// m, Σ m x and ∫ρ x xᵀ about the origin, plus the inertia that is not of points (sections' own rotary inertia).
+struct Moments {
+  double m = 0.0;
+  Vec3 first = Vec3::Zero();
+  Mat3 second = Mat3::Zero();
+  Mat3 rotary = Mat3::Zero();
+
+  void add_point(double mass, const Vec3& x) {
+    m += mass;
+    first += mass * x;
+    second += mass * x * x.transpose();
+  }
+
+  MassProperties properties() const {
+    MassProperties p;
+    p.mass = m;
+    if (m > 0.0) p.centre = first / m;
+    const Mat3 about_centre = second - m * p.centre * p.centre.transpose();
+    p.inertia = about_centre.trace() * Mat3::Identity() - about_centre + rotary;
+    return p;
+  }
+};
+
+/// A uniform bar: mass along the axis, and the section's rotary inertia about its two bending axes and (unless
+/// Nastran's convention is in force) its own axis.
+void add(const Model& model, const Beam& beam, Moments& sum) {
+  const Material& material = model.materials[static_cast<std::size_t>(beam.material)];
+  const BeamSection& section = model.beam_sections[static_cast<std::size_t>(beam.section)];
+  const Vec3 a = model.nodes[static_cast<std::size_t>(beam.nodes[0])] + beam.offsets[0];
+  const Vec3 b = model.nodes[static_cast<std::size_t>(beam.nodes[1])] + beam.offsets[1];
+  const double length = (b - a).norm();
+  const double mass = (material.rho * section.A + section.nsm) * length;
+  const double gauss = 0.5 / std::sqrt(3.0);
+  for (const double s : {0.5 - gauss, 0.5 + gauss}) sum.add_point(0.5 * mass, a + s * (b - a));
+  if (beam.mass == BeamMass::nastran) return;
+  const Vec3 x = (b - a) / length;
+  const Vec3 z = x.cross(beam.orientation).normalized(), y = z.cross(x);
+  const double rho_l = material.rho * length;
+  sum.rotary += rho_l * (section.Iy + section.Iz) * x * x.transpose();
+  if (!beam.rotary_inertia) return;
+  sum.rotary += rho_l * (section.Iy * y * y.transpose() + section.Iz * z * z.transpose() -
+                         section.Iyz * (y * z.transpose() + z * y.transpose()));
+}
+
+/// A point of a shell: mass per area × area, and the rotary inertia ρt³/12 about the two axes in its plane.
+void add_shell_point(const Model& model, int material, int section, const Vec3& x, const Vec3& normal, double area,
+                     Moments& sum) {
+  const ShellSection& s = model.shell_sections[static_cast<std::size_t>(section)];
+  const double rho = model.materials[static_cast<std::size_t>(material)].rho;
+  sum.add_point((rho * s.thickness + s.nsm) * area, x);
+  sum.rotary += rho * std::pow(s.thickness, 3) / 12.0 * area * (Mat3::Identity() - normal * normal.transpose());
+}
+
+void add(const Model& model, const Quad4& quad, Moments& sum) {
+  std::array<Vec3, 4> x;
+  for (std::size_t i = 0; i < 4; ++i) x[i] = model.nodes[static_cast<std::size_t>(quad.nodes[i])];
+  constexpr std::array<double, 3> at{-0.7745966692414834, 0.0, 0.7745966692414834},
+      weight{5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) {
+      const double r = at[i], s = at[j];
+      const Vec3 point = 0.25 * ((1 - r) * (1 - s) * x[0] + (1 + r) * (1 - s) * x[1] + (1 + r) * (1 + s) * x[2] +
+                                 (1 - r) * (1 + s) * x[3]);
+      const Vec3 g_r = 0.25 * ((1 - s) * (x[1] - x[0]) + (1 + s) * (x[2] - x[3]));
+      const Vec3 g_s = 0.25 * ((1 - r) * (x[3] - x[0]) + (1 + r) * (x[2] - x[1]));
+      const Vec3 n = g_r.cross(g_s);
+      add_shell_point(model, quad.material, quad.section, point, n.normalized(), weight[i] * weight[j] * n.norm(), sum);
+    }
+}
+
+void add(const Model& model, const Tria3& tria, Moments& sum) {
+  std::array<Vec3, 3> x;
+  for (std::size_t i = 0; i < 3; ++i) x[i] = model.nodes[static_cast<std::size_t>(tria.nodes[i])];
+  const Vec3 n = 0.5 * (x[1] - x[0]).cross(x[2] - x[0]);
+  for (std::size_t i = 0; i < 3; ++i)  // mid-sides integrate quadratics exactly
+    add_shell_point(model, tria.material, tria.section, 0.5 * (x[i] + x[(i + 1) % 3]), n.normalized(), n.norm() / 3.0,
+                    sum);
+}
+
+void add(const Model& model, const PointMass& mass, Moments& sum) {
+  sum.add_point(mass.mass, model.nodes[static_cast<std::size_t>(mass.node)] + mass.offset);
+  sum.rotary += mass.inertia;
+}
+
+void add(const Model&, const Spring&, Moments&) {}
+
+}  // namespace
+
+MassProperties geometric_mass_properties(const Model& model) {
+  Moments sum;
+  for (const Element& element : model.elements) std::visit([&](const auto& e) { add(model, e, sum); }, element);
+  return sum.properties();
+}
+
+Eigen::MatrixXd rigid_motions(const Structure& structure, const Vec3& point) {
+  Eigen::MatrixXd R = Eigen::MatrixXd::Zero(structure.n(), 6);
+  std::vector<char> scalar(structure.nodes.size(), 0);
+  for (const int node : structure.scalar_points) scalar[static_cast<std::size_t>(node)] = 1;
+  for (int i = 0; i < structure.n(); ++i) {
+    const Dof& dof = structure.dofs.free[static_cast<std::size_t>(i)];
+    const auto node = static_cast<std::size_t>(dof.node);
+    if (scalar[node] == 0) R.row(i) = tau(structure.nodes[node] - point).row(dof.direction);
+  }
+  return R;
+}
+
+MassProperties mass_properties(const Structure& structure) {
+  Vec3 centroid = Vec3::Zero();
+  for (const Vec3& x : structure.nodes) centroid += x / static_cast<double>(structure.nodes.size());
+  const Eigen::MatrixXd R = rigid_motions(structure, centroid);
+  const Mat6 D = R.transpose() * (structure.M.selfadjointView<Eigen::Lower>() * R);
+  MassProperties p;
+  p.mass = D.topLeftCorner<3, 3>().trace() / 3.0;
+  if (p.mass <= 0.0) return p;
+  const Mat3 S = D.bottomLeftCorner<3, 3>() / p.mass;  // m skew(c) below the diagonal of the rigid mass matrix
+  const Vec3 c(0.5 * (S(2, 1) - S(1, 2)), 0.5 * (S(0, 2) - S(2, 0)), 0.5 * (S(1, 0) - S(0, 1)));
+  p.centre = centroid + c;
+  p.inertia = D.bottomRightCorner<3, 3>() + p.mass * skew(c) * skew(c);
+  return p;
+}
+
+}  // namespace tenon::fem

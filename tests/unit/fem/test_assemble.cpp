@@ -1,0 +1,116 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <random>
+
+#include "fem/elements/beam.hpp"
+#include "fem/error.hpp"
+#include "fem/structure.hpp"
+
+using namespace tenon;
+using namespace tenon::fem;
+
+namespace {
+
+/// A space frame of random beams with rigid and averaging links, masses, supports.
+Model random_frame(unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  Model model;
+  model.source = "frame";
+  for (int i = 0; i < 12; ++i) {
+    model.nodes.emplace_back(uniform(random), uniform(random), uniform(random));
+    model.node_ids.push_back(100 + i);
+  }
+  model.materials.push_back({"steel", 2.1e11, 8.0e10, 0.3, 7800.0});
+  model.beam_sections.push_back({"rod", 1e-3, 2e-7, 3e-7, 0.0, 4e-7, 0.0, 0.0, 0.5});
+  for (int i = 0; i < 9; ++i)
+    model.elements.emplace_back(Beam{
+        {i, i + 1}, 0, 0, Vec3(0.3, 0.5, 0.9), {Vec3(0.01 * i, 0, 0), Vec3::Zero()}, BeamMass::consistent, true, i});
+  model.elements.emplace_back(PointMass{11, 4.0, Vec3(1, 2, 3).asDiagonal(), Vec3(0.1, 0, 0), 50});
+  model.rigid_links.push_back({3, {11}, all_six, Mat3::Identity(), 1});
+  model.average_links.push_back({10, all_six, {{0, 1, 0b111}, {4, 2, 0b111}, {7, 1, 0b111}}, 2});
+  model.elements.emplace_back(PointMass{10, 2.0, Mat3::Identity(), Vec3::Zero(), 51});
+  return model;
+}
+
+Eigen::MatrixXd dense(const SparseMatrix& lower) { return Eigen::MatrixXd(lower).selfadjointView<Eigen::Lower>(); }
+
+}  // namespace
+
+TEST(Assemble, EqualsTheDenseSumOverElements) {
+  const Model model = random_frame(1);
+  const Structure s = assemble(model);
+  const Eigen::MatrixXd T = s.dofs.expand(Eigen::MatrixXd::Identity(s.n(), s.n()));
+  const auto n_full = static_cast<Eigen::Index>(6 * model.nodes.size());
+  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n_full, n_full), M = K;
+  ElementMatrices e;
+  for (const Element& element : model.elements) {
+    if (const auto* beam = std::get_if<Beam>(&element)) {
+      beam_matrices(*beam, model.beam_sections[0], model.materials[0], model.nodes, e);
+      for (int a = 0; a < 12; ++a)
+        for (int b = 0; b < 12; ++b) {
+          const int i = 6 * beam->nodes[static_cast<std::size_t>(a / 6)] + a % 6,
+                    j = 6 * beam->nodes[static_cast<std::size_t>(b / 6)] + b % 6;
+          K(i, j) += e.K(a, b);
+          M(i, j) += e.M(a, b);
+        }
+    } else if (const auto* mass = std::get_if<PointMass>(&element)) {
+      M.block<6, 6>(6 * mass->node, 6 * mass->node) += rigid_mass(mass->mass, mass->offset, mass->inertia);
+    }
+  }
+  EXPECT_LT((dense(s.K) - T.transpose() * K * T).norm(), 1e-13 * K.norm());
+  EXPECT_LT((dense(s.M) - T.transpose() * M * T).norm(), 1e-13 * M.norm());
+}
+
+TEST(Assemble, FreeFrameHasSixRigidMotionsWithoutForce) {
+  const Structure s = assemble(random_frame(2));
+  const Eigen::MatrixXd R = rigid_motions(s, Vec3(0.1, -3.0, 2.0));
+  const Eigen::MatrixXd K = dense(s.K);
+  EXPECT_LT((K * R).norm(), 1e-12 * K.norm() * R.norm());
+}
+
+TEST(Assemble, MassFromMatrixEqualsMassFromGeometry) {
+  const Model model = random_frame(3);
+  const MassProperties m = mass_properties(assemble(model)), g = geometric_mass_properties(model);
+  EXPECT_NEAR(m.mass, g.mass, 1e-12 * g.mass);
+  EXPECT_LT((m.centre - g.centre).norm(), 1e-12);
+  EXPECT_LT((m.inertia - g.inertia).norm(), 1e-11 * g.inertia.norm());
+}
+
+TEST(Assemble, ResultDoesNotDependOnTheNumberingOfElements) {
+  Model model = random_frame(4);
+  const Structure a = assemble(model);
+  std::reverse(model.elements.begin(), model.elements.end());
+  const Structure b = assemble(model);
+  EXPECT_LT((dense(a.K) - dense(b.K)).norm(), 1e-14 * a.K.norm());
+}
+
+TEST(Assemble, DofsWithoutStiffnessAndMassAreNamedNotSilent) {
+  Model model;
+  model.source = "pair";
+  model.nodes = {Vec3::Zero(), Vec3::UnitX()};
+  model.node_ids = {1, 2};
+  model.elements.emplace_back(Spring{0, 0, 1, 0, 5.0, 1});
+  model.elements.emplace_back(PointMass{0, 2.0, Mat3::Zero(), Vec3::Zero(), 2});
+  const Structure s = assemble(model);
+  EXPECT_EQ(s.n(), 4);  // ux of both, uy and uz of the mass
+  EXPECT_EQ(s.dofs.unused.size(), 8U);
+  EXPECT_THAT(s.dofs.names, testing::ElementsAre("node 1 ux", "node 1 uy", "node 1 uz", "node 2 ux"));
+}
+
+TEST(Assemble, AModelWithoutElementsIsRefused) {
+  Model model;
+  model.source = "void.msh";
+  EXPECT_THAT([&] { (void)assemble(model); },
+              testing::ThrowsMessage<ModelError>(testing::HasSubstr("void.msh: the model has no elements")));
+}
+
+TEST(Assemble, ABadElementIsNamedWhateverTheThreadThatMeetsIt) {
+  Model model = random_frame(5);
+  std::get<Beam>(model.elements[4]).nodes[1] = std::get<Beam>(model.elements[4]).nodes[0];
+  std::get<Beam>(model.elements[4]).offsets = {Vec3::Zero(), Vec3::Zero()};
+  std::get<Beam>(model.elements[4]).id = 4711;
+  EXPECT_THAT([&] { (void)assemble(model); }, testing::ThrowsMessage<ModelError>(testing::HasSubstr("4711")));
+}
