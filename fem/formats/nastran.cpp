@@ -89,11 +89,18 @@ std::vector<Parameter> parameters(Draft& draft, const Text& text) {
   return all;
 }
 
+std::string note_on(const std::string& parameter) {
+  if (parameter == "AUTOSPC") return "dofs without stiffness and mass are left out in any case";
+  if (parameter == "GRDPNT") return "mass, centre and inertia are always available";
+  if (parameter == "K6ROT") return "the drilling stiffness of shells is the program's own";
+  return "no effect on K and M";
+}
+
 void read_parameters(Draft& draft, const Text& text) {
   std::map<std::string, Parameter> used;
   for (const Parameter& p : parameters(draft, text)) {
     if (p.name != "COUPMASS" && p.name != "WTMASS") {
-      draft.losses.add("PARAM " + p.name, "no effect on K and M");
+      draft.losses.add("PARAM " + p.name, note_on(p.name));
       continue;
     }
     const auto value = parse_real(p.value);

@@ -165,6 +165,8 @@ void Geometry::fill() {
     if (cd < 0)
       card.refuse(6, fmt::format("field CD is {}: fluid points are not read", cd),
                   "Remove the fluid part of the model");
+    if (with_default(card, 8, "SEID") != 0)
+      draft_.losses.add("GRID SEID", "superelement of the grid: all are read as one structure");
     const Card& ps = card.blank(7) && defaults_ ? *defaults_ : card;
     draft_.permanent_spc.push_back(ps.components(7, "PS"));
     draft_.axes.push_back(draft_.frame_at(card, 6, "CD", cd, at));

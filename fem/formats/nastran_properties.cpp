@@ -123,7 +123,7 @@ void read_shells(Draft& draft, const MaterialIndex& materials, Properties& prope
 
 const Property& Properties::find(const std::unordered_map<long, Property>& properties, const char* kind,
                                  const Card& card, int field) {
-  const long id = card.id(field, "PID", card.id(1, "EID"));
+  const long id = card.blank(field) ? card.id(1, "EID") : card.id(field, "PID");
   const auto found = properties.find(id);
   if (found == properties.end())
     card.refuse(field, fmt::format("field PID names property {}, which is not defined by a {}", id, kind),
