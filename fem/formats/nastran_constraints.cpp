@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <set>
 
@@ -56,30 +57,14 @@ void hold(Draft& draft, int node, unsigned components) {
   }
 }
 
-/// One MPC equation as it grows; equal dofs are added up.
-struct Equation {
-  LinearConstraint constraint;
-
-  void add(const Dof& dof, double coefficient) {
-    if (coefficient == 0.0) return;
-    for (auto& term : constraint.terms)
-      if (term.dof.node == dof.node && term.dof.direction == dof.direction) {
-        term.coefficient += coefficient;
-        return;
-      }
-    constraint.terms.push_back({dof, coefficient});
-  }
-  void lead_with(std::size_t term) {
-    std::rotate(constraint.terms.begin(), constraint.terms.begin() + static_cast<std::ptrdiff_t>(term),
-                constraint.terms.begin() + static_cast<std::ptrdiff_t>(term) + 1);
-  }
-};
+/// Terms of an MPC stand at fields 2 and 5, 10 and 13, 18 and 21, ...
+int next_term(int field) { return field + (field % 8 == 2 ? 3 : 5); }
 
 /// The node that stands for a scalar point; it lies at the first grid of the equation that names it.
 int scalar_node(Draft& draft, const Card& card, long id) {
   if (const auto found = draft.scalar_node.find(id); found != draft.scalar_node.end()) return found->second;
   Vec3 place = Vec3::Zero();
-  for (int k = 2; k <= card.size(); k += (k % 8 == 2 ? 3 : 5)) {
+  for (int k = 2; k <= card.size(); k = next_term(k)) {
     const auto grid = draft.node_of.find(parse_integer(card.at(k)).value_or(0));
     if (grid == draft.node_of.end()) continue;
     place = draft.deck.model.nodes[static_cast<std::size_t>(grid->second)];
@@ -91,60 +76,90 @@ int scalar_node(Draft& draft, const Card& card, long id) {
   return node;
 }
 
-// SID G1 C1 A1 G2 C2 A2 - | - G3 C3 A3 G4 C4 A4 - | ...
-void equation(Draft& draft, const Card& card) {
-  Equation sum;
-  sum.constraint.id = card.id(1, "SID");
-  std::optional<std::size_t> new_scalar;  // a scalar's first equation defines it
-  bool q_scalar = false, structure = false;
-  for (int k = 2; k <= card.size(); k += (k % 8 == 2 ? 3 : 5)) {
-    if (card.blank(k) && card.blank(k + 1) && card.blank(k + 2)) continue;
-    const long id = card.id(k, "G");
-    const double coefficient = card.real(k + 2, "A");
-    if (coefficient == 0.0 && k == 2) card.fail(4, "A1", "a number other than zero");
-    const unsigned bits = card.components(k + 1, "C");
-    if (draft.scalars.contains(id)) {
-      if (bits > 1) card.fail(k + 1, "C", "0, 1 or a blank for a scalar point");
-      const bool known = draft.scalar_node.contains(id);
-      const int node = scalar_node(draft, card, id);
-      q_scalar = q_scalar || draft.scalars.in_q_set(id);
-      const bool free = !draft.scalars.in_q_set(id) && !draft.scalars.is_held(id);
-      if (!known && free && !new_scalar) new_scalar = sum.constraint.terms.size();
-      sum.add({node, 0}, coefficient);
-      continue;
+/// One MPC card as it becomes an equation; equal dofs are added up.
+struct Equation {
+  Draft& draft;
+  const Card& card;
+  LinearConstraint sum = {};
+  Dof dependent = {};      ///< the dof to eliminate: of a skew direction its largest part
+  bool defines = false;    ///< it is a scalar point, and this is the first equation that names it
+  bool q_scalar = false;   ///< a term is a generalised coordinate of the q-set
+  bool structure = false;  ///< a term is a dof that elements or links use
+
+  void add(const Dof& dof, double coefficient);
+  void scalar_term(int field, long id);
+  void grid_term(int field);
+  LinearConstraint finish();
+};
+
+bool same(const Dof& a, const Dof& b) { return a.node == b.node && a.direction == b.direction; }
+
+void Equation::add(const Dof& dof, double coefficient) {
+  for (auto& term : sum.terms)
+    if (same(term.dof, dof)) {
+      term.coefficient += coefficient;
+      return;
     }
-    const int node = draft.node(card, k, "G");
-    const auto n = static_cast<std::size_t>(node);
-    int direction = 0;
-    while (direction < 6 && bits != 1U << direction) ++direction;
-    if (direction == 6) card.fail(k + 1, "C", "one digit 1 to 6");
-    const int half = direction / 3 * 3;
-    const Vec3 axis = draft.axes[n].col(direction - half);
-    const std::size_t start = sum.constraint.terms.size();
-    if (const auto along = basic_axis(axis)) {
-      sum.add({node, half + along->direction}, coefficient * along->sign);
-      structure = structure || draft.carries[n] || (draft.governed[n] >> (half + along->direction) & 1U);
-    } else {
-      for (int d = 0; d < 3; ++d) sum.add({node, half + d}, coefficient * axis[d]);
-      structure = structure || draft.carries[n] || (draft.governed[n] >> half & 0b111U);
-    }
-    if (k == 2) {  // the dependent dof: of a skew direction its largest part
-      const auto& terms = sum.constraint.terms;
-      const auto largest = std::max_element(
-          terms.begin() + static_cast<std::ptrdiff_t>(start), terms.end(),
-          [](const auto& a, const auto& b) { return std::abs(a.coefficient) < std::abs(b.coefficient); });
-      sum.lead_with(static_cast<std::size_t>(largest - terms.begin()));
-    }
+  sum.terms.push_back({dof, coefficient});
+}
+
+void Equation::scalar_term(int field, long id) {
+  if (card.components(field + 1, "C") > 1) card.fail(field + 1, "C", "0, 1 or a blank for a scalar point");
+  const bool known = draft.scalar_node.contains(id), in_q_set = draft.scalars.in_q_set(id);
+  const Dof scalar{scalar_node(draft, card, id), 0};
+  const bool first = !known && !in_q_set && !draft.scalars.is_held(id);
+  if (field == 2 || (first && !defines)) dependent = scalar;
+  defines = defines || first;
+  q_scalar = q_scalar || in_q_set;
+  add(scalar, card.real(field + 2, "A"));
+}
+
+void Equation::grid_term(int field) {
+  const int node = draft.node(card, field, "G");
+  const auto n = static_cast<std::size_t>(node);
+  const unsigned bits = card.components(field + 1, "C");
+  if (!std::has_single_bit(bits)) card.fail(field + 1, "C", "one digit 1 to 6");
+  const int direction = std::countr_zero(bits), half = direction / 3 * 3;
+  const double coefficient = card.real(field + 2, "A");
+  const Vec3 axis = draft.axes[n].col(direction - half);
+  int largest = 0;
+  axis.cwiseAbs().maxCoeff(&largest);
+  if (field == 2) dependent = {node, half + largest};
+  if (const auto along = basic_axis(axis)) {
+    add({node, half + along->direction}, coefficient * along->sign);
+    structure = structure || draft.carries[n] || (draft.governed[n] >> (half + along->direction) & 1U);
+  } else {
+    for (int d = 0; d < 3; ++d) add({node, half + d}, coefficient * axis[d]);
+    structure = structure || draft.carries[n] || (draft.governed[n] >> half & 0b111U);
   }
+}
+
+LinearConstraint Equation::finish() {
   if (q_scalar && structure)
-    card.refuse(0,
-                fmt::format("of set {} would give a scalar point of the q-set stiffness or mass of the structure",
-                            sum.constraint.id),
-                "Join the q-set only to grids that no element uses (recovery points), or do not select this set");
-  if (new_scalar) sum.lead_with(*new_scalar);
-  std::erase_if(sum.constraint.terms, [](const auto& term) { return term.coefficient == 0.0; });
-  if (sum.constraint.terms.empty()) card.refuse(0, "says 0 = 0: its terms cancel", "Correct or remove the equation");
-  draft.deck.model.constraints.push_back(std::move(sum.constraint));
+    card.refuse(
+        0, fmt::format("of set {} would give a scalar point of the q-set stiffness or mass of the structure", sum.id),
+        "Join the q-set only to grids that no element uses (recovery points), or do not select this set");
+  std::erase_if(sum.terms, [](const auto& term) { return term.coefficient == 0.0; });
+  if (sum.terms.empty()) card.refuse(0, "says 0 = 0: its terms cancel", "Correct or remove the equation");
+  const auto first = std::ranges::find_if(sum.terms, [&](const auto& term) { return same(term.dof, dependent); });
+  if (first != sum.terms.end()) std::rotate(sum.terms.begin(), first, first + 1);
+  return std::move(sum);
+}
+
+// SID G1 C1 A1 G2 C2 A2 - | - G3 C3 A3 G4 C4 A4 - | ...; the first dof is the dependent one
+LinearConstraint equation(Draft& draft, const Card& card) {
+  Equation e{draft, card};
+  e.sum.id = card.id(1, "SID");
+  for (int field = 2; field <= card.size(); field = next_term(field)) {
+    if (card.blank(field) && card.blank(field + 1) && card.blank(field + 2)) continue;
+    const long id = card.id(field, "G");
+    if (field == 2 && card.real(4, "A1") == 0.0) card.fail(4, "A1", "a number other than zero");
+    if (draft.scalars.contains(id))
+      e.scalar_term(field, id);
+    else
+      e.grid_term(field);
+  }
+  return e.finish();
 }
 
 }  // namespace
@@ -214,7 +229,8 @@ void read_supports(Draft& draft) {
 }
 
 void read_equations(Draft& draft) {
-  for (const Card& card : selected(draft, "MPC", draft.take("MPC"), draft.selection.mpc)) equation(draft, card);
+  for (const Card& card : selected(draft, "MPC", draft.take("MPC"), draft.selection.mpc))
+    draft.deck.model.constraints.push_back(equation(draft, card));
   for (const auto& [id, node] : draft.scalar_node)
     if (draft.scalars.is_held(id)) draft.deck.model.supports.push_back({{node, 0}});
 }

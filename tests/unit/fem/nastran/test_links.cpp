@@ -157,6 +157,14 @@ TEST(NastranLinks, EquationsWithContinuations) {
   EXPECT_EQ(terms[4].coefficient, -1.0);
 }
 
+TEST(NastranLinks, TheFirstDofOfAnEquationIsTheDependentOne) {
+  const auto terms = read_model("MPC,1,2,1,1.,2,2,-50.\n,,2,1,2.\n", mpc_one).constraints.at(0).terms;
+  ASSERT_EQ(terms.size(), 2U);  // equal dofs are added up
+  EXPECT_EQ(terms[0].dof.direction, 0);
+  EXPECT_EQ(terms[0].coefficient, 3.0);
+  EXPECT_EQ(terms[1].coefficient, -50.0);
+}
+
 TEST(NastranLinks, EquationsInOtherFrames) {
   const auto renamed = read_model("MPC,1,18,1,1.,1,1,-1.\n", mpc_one).constraints.at(0);
   ASSERT_EQ(renamed.terms.size(), 2U);
@@ -196,6 +204,7 @@ TEST(NastranLinks, BadEquationsAreRefused) {
   EXPECT_THAT(refused("MPC,1,1,1,1.,77,1,-1.\n", mpc_one), HasSubstr("names GRID 77"));
   EXPECT_THAT(refused("MPC,1,1,1,1.,1,1,-1.\n", mpc_one), HasSubstr("0 = 0"));
   EXPECT_THAT(refused("SPOINT,101\nMPC,1,101,3,1.,1,1,-1.\n", mpc_one), HasSubstr("scalar point"));
+  EXPECT_THAT(refused("SPOINT,101\nMPC,1,1,1,1.,101,0,0.\n,,1,1,-1.\n", mpc_one), HasSubstr("0 = 0"));
   EXPECT_THAT(refused("SPOINT,1\n"), HasSubstr("which is a GRID"));
 }
 
