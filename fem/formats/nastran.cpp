@@ -5,7 +5,7 @@
 #include <array>
 #include <cctype>
 
-#include "fem/formats/nastran_draft.hpp"
+#include "fem/formats/nastran/draft.hpp"
 
 namespace tenon::fem {
 namespace nastran {

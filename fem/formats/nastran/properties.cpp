@@ -1,4 +1,4 @@
-#include "fem/formats/nastran_properties.hpp"
+#include "fem/formats/nastran/properties.hpp"
 
 #include <fmt/format.h>
 

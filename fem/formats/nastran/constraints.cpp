@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "fem/formats/nastran_draft.hpp"
+#include "fem/formats/nastran/draft.hpp"
 
 namespace tenon::fem::nastran {
 namespace {

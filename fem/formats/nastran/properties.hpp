@@ -3,7 +3,7 @@
 #include <string>
 #include <unordered_map>
 
-#include "fem/formats/nastran_draft.hpp"
+#include "fem/formats/nastran/draft.hpp"
 
 /// Materials and sections of a deck: MAT1, PBAR, PSHELL.
 namespace tenon::fem::nastran {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fem/formats/nastran.hpp"
-#include "fem/formats/nastran_cards.hpp"
+#include "fem/formats/nastran/cards.hpp"
 
 /// What the steps of the reader share while cards become a mesh and a model.
 namespace tenon::fem::nastran {

@@ -2,48 +2,18 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <atomic>
-#include <filesystem>
-#include <fstream>
-#include <map>
 #include <string>
+#include <vector>
 
 #include "fem/error.hpp"
 #include "fem/formats/nastran.hpp"
+#include "tests/unit/fem/formats/scratch.hpp"
 
 namespace tenon::fem {
 
-/// Decks written into a folder of their own, which goes with the object.
-class DeckFolder {
- public:
-  DeckFolder() {
-    static std::atomic<int> count{0};
-    folder_ = std::filesystem::temp_directory_path() /
-              ("tenon-nastran-" + std::to_string(getpid()) + "-" + std::to_string(count++));
-    std::filesystem::create_directories(folder_);
-  }
-  ~DeckFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-  }
-  DeckFolder(const DeckFolder&) = delete;
-  DeckFolder& operator=(const DeckFolder&) = delete;
-
-  std::filesystem::path write(const std::string& name, const std::string& content) const {
-    const std::filesystem::path path = folder_ / name;
-    std::filesystem::create_directories(path.parent_path());
-    std::ofstream(path, std::ios::binary) << content;
-    return path;
-  }
-
- private:
-  std::filesystem::path folder_;
-};
-
 inline NastranDeck read_deck(const std::string& content, const NastranOptions& options = {}) {
-  const DeckFolder folder;
+  const testing::Scratch folder;
   return read_nastran(folder.write("deck.bdf", content), options);
 }
 

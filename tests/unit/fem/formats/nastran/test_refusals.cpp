@@ -1,6 +1,6 @@
 #include <chrono>
 
-#include "deck_file.hpp"
+#include "tests/unit/fem/formats/nastran/deck_file.hpp"
 
 using namespace tenon;
 using namespace tenon::fem;

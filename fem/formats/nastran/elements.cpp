@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "fem/formats/nastran_properties.hpp"
+#include "fem/formats/nastran/properties.hpp"
 
 namespace tenon::fem::nastran {
 namespace {

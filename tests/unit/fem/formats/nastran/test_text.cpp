@@ -1,12 +1,13 @@
 #include <cmath>
 
-#include "deck_file.hpp"
-#include "fem/formats/nastran_cards.hpp"
+#include "fem/formats/nastran/cards.hpp"
+#include "tests/unit/fem/formats/nastran/deck_file.hpp"
 
 using namespace tenon;
 using namespace tenon::fem;
 using nastran::parse_integer;
 using nastran::parse_real;
+using tenon::fem::testing::Scratch;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
@@ -126,7 +127,9 @@ TEST(NastranText, ADeckThatEndsEarlyIsRefused) {
 }
 
 TEST(NastranText, IncludesAreFoundBesideTheirFileOrBesideTheDeck) {
-  const DeckFolder folder;
+  const Scratch folder;
+  for (const char* name : {"parts", "a folder/with a long name"})
+    std::filesystem::create_directories(folder.file(name));
   folder.write("parts/a.blk", "GRID,2\nINCLUDE 'b.blk'\ninclude \"common.blk\"\n");
   folder.write("parts/b.blk", "$ nothing but a grid\nGRID,3\n");
   folder.write("common.blk", "GRID,4\n");
@@ -139,7 +142,7 @@ TEST(NastranText, IncludesAreFoundBesideTheirFileOrBesideTheDeck) {
 }
 
 TEST(NastranText, ErrorsStandAtTheLineOfTheIncludedFile) {
-  const DeckFolder folder;
+  const Scratch folder;
   folder.write("part.blk", "GRID,1\n$\nGRID           2       0     1.x\n");
   const auto deck = folder.write("deck.dat", "\n\nINCLUDE 'part.blk'\n");
   try {
@@ -154,7 +157,7 @@ TEST(NastranText, ErrorsStandAtTheLineOfTheIncludedFile) {
 }
 
 TEST(NastranText, IncludesThatFailAreNamedWhereTheyStand) {
-  const DeckFolder folder;
+  const Scratch folder;
   folder.write("a.blk", "GRID,1\nINCLUDE 'deck.dat'\n");
   folder.write("b.blk", "GRID,9\n");
   const auto message = [&](const std::string& content) {
@@ -169,10 +172,10 @@ TEST(NastranText, IncludesThatFailAreNamedWhereTheyStand) {
   EXPECT_THAT(message("GRID,2\nINCLUDE 'a.blk'\n"), HasSubstr("includes itself"));
   EXPECT_THAT(message("INCLUDE 'b.blk'\nINCLUDE 'b.blk'\n"), HasSubstr("deck.dat:2: "));
   EXPECT_THAT(message("INCLUDE 'b.blk'\nINCLUDE './b.blk'\n"), HasSubstr("a second time"));
-  EXPECT_THAT(message("\nINCLUDE 'missing.blk'\n"), HasSubstr("deck.dat:2: the file"));
+  EXPECT_THAT(message("\nINCLUDE 'missing.blk'\n"), HasSubstr("deck.dat:2: the included file"));
   EXPECT_THAT(message("INCLUDE 'never closed\nGRID,1\n"), HasSubstr("deck.dat:1: INCLUDE opens a quote"));
   EXPECT_THAT(message("INCLUDE\nGRID,1\n"), HasSubstr("INCLUDE names no file"));
-  EXPECT_THAT(message("INCLUDE '.'\nGRID,1\n"), HasSubstr("is not a file"));
+  EXPECT_THAT(message("INCLUDE '.'\nGRID,1\n"), HasSubstr("deck.dat:1: "));
 }
 
 TEST(NastranText, FilesThatAreNoDeckAreRefused) {

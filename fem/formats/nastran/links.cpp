@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "fem/formats/nastran_draft.hpp"
+#include "fem/formats/nastran/draft.hpp"
 
 namespace tenon::fem::nastran {
 namespace {

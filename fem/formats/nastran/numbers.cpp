@@ -4,7 +4,7 @@
 #include <string>
 #include <system_error>
 
-#include "fem/formats/nastran_cards.hpp"
+#include "fem/formats/nastran/cards.hpp"
 
 namespace tenon::fem::nastran {
 namespace {

@@ -1,7 +1,7 @@
 #include <array>
 #include <cmath>
 
-#include "fem/formats/nastran_draft.hpp"
+#include "fem/formats/nastran/draft.hpp"
 
 namespace tenon::fem::nastran {
 namespace {

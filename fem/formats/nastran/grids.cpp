@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "fem/formats/nastran_draft.hpp"
+#include "fem/formats/nastran/draft.hpp"
 
 namespace tenon::fem::nastran {
 namespace {

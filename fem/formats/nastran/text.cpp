@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
-#include <iterator>
 #include <set>
 
-#include "fem/formats/nastran_cards.hpp"
+#include "fem/formats/file_bytes.hpp"
+#include "fem/formats/nastran/cards.hpp"
 
 namespace tenon::fem::nastran {
 namespace {
@@ -47,17 +46,6 @@ std::string with_tabs_expanded(std::string_view line) {
 std::string_view mark_name(std::string_view mark) {
   if (!mark.empty() && (mark.front() == '+' || mark.front() == '*')) mark.remove_prefix(1);
   return trim(mark);
-}
-
-std::string read_file(const fs::path& path, const Place& asked_at) {
-  std::error_code ignored;
-  if (!fs::exists(path, ignored))
-    throw InputError(asked_at, "the file '" + path.string() + "' does not exist", "Check the name and the folder");
-  if (!fs::is_regular_file(path, ignored))
-    throw InputError(asked_at, "'" + path.string() + "' is not a file", "Name the Nastran deck itself");
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw InputError(asked_at, "the file '" + path.string() + "' cannot be opened", "Check its permissions");
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 /// Refuses what is no text: control characters other than white space.
@@ -133,7 +121,10 @@ void Reader::file(const fs::path& path, const Place& asked_at) {
   if (!seen_files_.insert(canonical).second)
     throw InputError(asked_at, "'" + path.string() + "' is included a second time, all its cards would be doubled",
                      "Remove one of the INCLUDE statements");
-  const std::string& content = text_.storage.emplace_back(read_file(path, asked_at));
+  if (std::error_code error; !open_files_.empty() && !fs::is_regular_file(path, error))
+    throw InputError(asked_at, "the included file '" + path.string() + "' does not exist or is no file",
+                     "Check the name; it is relative to the including file, else to the deck");
+  const std::string& content = text_.storage.emplace_back(read_bytes(path));
   const int outer_file = file_, outer_line = line_;
   file_ = static_cast<int>(text_.files.size());
   text_.files.push_back(path.string());

@@ -2,7 +2,7 @@
 #include <array>
 #include <string_view>
 
-#include "fem/formats/nastran_draft.hpp"
+#include "fem/formats/nastran/draft.hpp"
 
 namespace tenon::fem::nastran {
 namespace {

@@ -1,4 +1,4 @@
-#include "fem/formats/nastran_draft.hpp"
+#include "fem/formats/nastran/draft.hpp"
 
 #include <fmt/format.h>
 

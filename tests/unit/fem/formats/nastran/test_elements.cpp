@@ -1,7 +1,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "deck_file.hpp"
+#include "tests/unit/fem/formats/nastran/deck_file.hpp"
 
 using namespace tenon;
 using namespace tenon::fem;
