@@ -64,7 +64,8 @@ int dimension(CellType type) { return of(type).dimension; }
 std::vector<std::string> set_names(const Mesh& mesh) {
   std::vector<std::string> names;
   for (const auto& [set, points] : mesh.point_sets) names.push_back(set);
-  for (const auto& [set, cells] : mesh.cell_sets) names.push_back(set);
+  for (const auto& [set, cells] : mesh.cell_sets)
+    if (!mesh.point_sets.contains(set)) names.push_back(set);
   return names;
 }
 

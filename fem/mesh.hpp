@@ -73,7 +73,7 @@ struct Mesh {
 /// sorted. Throws InputError naming near misses when there is neither.
 std::vector<int> points_of_set(const Mesh& mesh, const std::string& set);
 
-/// Names of all sets, point sets first.
+/// Names of all sets, point sets first, each once.
 std::vector<std::string> set_names(const Mesh& mesh);
 
 /// The candidate nearest in spelling (edit distance at most a third of its length), or "" when none is near.

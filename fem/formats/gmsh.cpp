@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-#include <cstring>
-
 #include "fem/error.hpp"
 #include "fem/formats/file_bytes.hpp"
 #include "fem/formats/gmsh/content.hpp"
@@ -93,6 +90,9 @@ void read_sections(Cursor& cursor, Content& content) {
                   cure);
     }
     const std::string name(heading.substr(1));
+    if (has_format && name == "MeshFormat")
+      cursor.fail(start, "found a second $MeshFormat, expected one mesh in a file",
+                  "Keep each mesh in a file of its own");
     cursor.end_line();
     cursor.section = heading.substr(1);
     if (read_section(name, cursor, content)) {

@@ -55,6 +55,29 @@ std::vector<Repeat> repeats(const Cells& cells) {
   return found;
 }
 
+/// Counts what cells on the nodes of another cell mean. In a file that repeats a cell for each of its groups, a cell
+/// given twice in one group may also have been meant as two: which one, the file cannot say.
+void report(const std::vector<Repeat>& repeated, const Cells& cells, bool one_copy_per_group, Content& content) {
+  if (repeated.empty()) return;
+  const auto group = [&](int cell) { return cells.groups[static_cast<std::size_t>(cell)]; };
+  const auto n = static_cast<long>(repeated.size());
+  const auto twice =
+      one_copy_per_group && dimension(cells.type) > 0
+          ? std::ranges::count_if(repeated, [&](const Repeat& r) { return group(r.cell) == group(r.first); })
+          : 0;
+  if (!one_copy_per_group)
+    content.lose("cells on the nodes of another cell", n, "kept as cells of their own: stiffness and mass add up");
+  if (one_copy_per_group && n > twice)
+    content.lose("repeated cells", n - twice,
+                 "the file repeats a cell for each physical group; merged into one cell in all");
+  if (twice > 0) {
+    const char* const name = "cells given twice in one group";
+    content.lose(name, twice,
+                 "merged into one; save as version 4.1, which keeps two cells apart from two copies of one");
+    content.losses.at(name).changes_physics = true;
+  }
+}
+
 /// Where each cell of the file went: its index in the mesh's block.
 std::vector<int> merged_places(std::size_t n, const std::vector<Repeat>& repeated) {
   std::vector<int> place(n);
@@ -192,15 +215,8 @@ Mesh make_mesh(Content&& content, const std::string& source) {
   for (std::size_t b = 0; b < content.cells.size(); ++b) {
     Cells& cells = content.cells[b];
     std::vector<Repeat> repeated = repeats(cells);
-    const auto n = static_cast<long>(repeated.size());
-    if (!one_copy_per_group) {
-      if (n > 0)
-        content.lose("cells on the nodes of another cell", n, "kept as cells of their own: stiffness and mass add up");
-      repeated.clear();
-    } else if (n > 0) {
-      content.lose("repeated cells", n,
-                   "the file repeats a cell for each physical group; merged into one cell in all of them");
-    }
+    report(repeated, cells, one_copy_per_group, content);
+    if (!one_copy_per_group) repeated.clear();
     places[b] = merged_places(cells.ids.size(), repeated);
     if (has_cell_data)
       for (std::size_t c = 0; c < cells.ids.size(); ++c) where[cells.ids[c]] = {b, places[b][c]};

@@ -229,6 +229,24 @@ TEST(Gmsh, TaggedAndUntaggedCellsOfOneTypeShareABlock) {
   EXPECT_EQ(lost(mesh, "physical group 'nowhere'"), 1);
 }
 
+TEST(Gmsh, CellTwiceInOneGroupOfVersion2IsMergedAndCountsAsAChangeOfPhysics) {
+  const Mesh mesh = parse_gmsh(
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n2\n1 0 0 0\n2 1 0 0\n$EndNodes\n"
+      "$Elements\n3\n1 1 2 5 1 1 2\n2 1 2 5 2 2 1\n3 1 2 6 1 1 2\n$EndElements\n",
+      "a.msh");
+  EXPECT_EQ(mesh.cells.at(0).size(), 1);
+  EXPECT_THAT(mesh.cell_sets.at("curve_5")[0], ElementsAre(0));
+  EXPECT_THAT(mesh.cell_sets.at("curve_6")[0], ElementsAre(0));
+  EXPECT_EQ(lost(mesh, "repeated cells"), 1);
+  ASSERT_EQ(lost(mesh, "cells given twice in one group"), 1);
+  for (const Loss& loss : mesh.losses) EXPECT_EQ(loss.changes_physics, loss.name == "cells given twice in one group");
+}
+
+TEST(Gmsh, NamesOfSetsComeOnce) {
+  EXPECT_THAT(set_names(read_gmsh(fixture("mixed_41.msh"))),
+              ElementsAre("root", "tip", "hinge", "outer part", "skin", "yoke"));
+}
+
 TEST(Gmsh, GroupsOfOneNameInTwoDimensionsShareTheSet) {
   const Scratch scratch;
   std::string text = contents(fixture("mixed_41.msh"));

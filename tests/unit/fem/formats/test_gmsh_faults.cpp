@@ -200,6 +200,8 @@ TEST(GmshFaults, EachIsNamedWithItsPlace) {
        "bad.msh:11:5: in $Elements: found 99999999999, expected the number of tags (a 4-byte whole number)", ""},
       {line_22(nodes, "0\n"), "the file ends without any element, expected $Elements", ""},
       {line_22(nodes, element) + "$Nodes\n1\n1 0 0 0\n$EndNodes\n", "node 1 is defined a second time", ""},
+      {line_22(nodes, element) + line_22(nodes, element), "bad.msh:13:1: found a second $MeshFormat",
+       "file of its own"},
       {line_22(nodes, element) + "words\n", "bad.msh:13:1: found 'words', expected a section such as $Nodes", ""},
       {line_22(nodes, element) + "$Periodic\n1\n",
        "bad.msh:13:1: in $Periodic: the section $Periodic has no $EndPeriodic", ""},
