@@ -1,0 +1,57 @@
+#include "assembly/kinematics.hpp"
+
+#include <Eigen/Eigenvalues>
+
+namespace tenon::assembly {
+
+using fem::Mat6;
+using fem::Vec6;
+
+Eigen::MatrixXd port_rows(const ReducedBody& body, int port, const Mat3& R) {
+  const reduction::BodyPort& p = body.ports[static_cast<std::size_t>(port)];
+  Eigen::MatrixXd rows(6, 6 + body.n());
+  rows.leftCols<6>() = fem::tau(R * (p.position - body.reference));
+  rows.rightCols(body.n()) = fem::rotation6(R) * p.Phi;
+  return rows;
+}
+
+Vec3 joint_axis(const Network& network, const Placement& placement, const Joint& joint) {
+  const Mat3& R = placement.R[static_cast<std::size_t>(joint.parent.body)];
+  return (R * port_of(network, joint.parent).axes * joint.axis).normalized();
+}
+
+Mat6 lumped_mass(const LumpedMass& lump, const Mat3& R) {
+  Mat6 M = Mat6::Zero();
+  M.topLeftCorner<3, 3>() = lump.mass * Mat3::Identity();
+  M.bottomRightCorner<3, 3>() = R * lump.inertia * R.transpose();
+  return M;
+}
+
+titop::Channel channel(const Input& input) { return {input.name, !input.joint && input.direction < 3 ? "N" : "N m"}; }
+
+titop::Channel channel(const Output& output) {
+  const std::string length = !output.joint && output.direction < 3 ? "m" : "rad";
+  switch (output.quantity) {
+    case Quantity::position:
+      return {output.name, length};
+    case Quantity::velocity:
+      return {output.name, length + "/s"};
+    default:
+      return {output.name, length + "/s²"};
+  }
+}
+
+Mat6 mass_root(const Mat6& D, const Vec6& scale) {
+  const Vec6 s = scale.cwiseMax(0.0).cwiseSqrt();
+  Vec6 inverse = Vec6::Zero();
+  for (int i = 0; i < 6; ++i)
+    if (s[i] > 0.0) inverse[i] = 1.0 / s[i];
+  const Eigen::SelfAdjointEigenSolver<Mat6> eigen(inverse.asDiagonal() * (0.5 * (D + D.transpose())) *
+                                                  inverse.asDiagonal());
+  Vec6 root = Vec6::Zero();
+  for (int i = 0; i < 6; ++i)
+    if (eigen.eigenvalues()[i] > 1e-12) root[i] = std::sqrt(eigen.eigenvalues()[i]);
+  return root.asDiagonal() * eigen.eigenvectors().transpose() * s.asDiagonal();
+}
+
+}  // namespace tenon::assembly

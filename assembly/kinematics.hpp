@@ -1,0 +1,30 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "assembly/network.hpp"
+#include "titop/state_space.hpp"
+
+/// What every route of assembly says about a network in the same words: port motions, joint axes, lumped masses and the
+/// names of channels.
+namespace tenon::assembly {
+
+/// Motion of a port in world axes over (x_ref in world axes, η): x_port = [τ  R Phi] (x_ref; η), 6×(6+n), eq (2) of the
+/// TITOP paper.
+Eigen::MatrixXd port_rows(const ReducedBody& body, int port, const Mat3& R);
+
+/// Axis of a joint in world axes, unit length.
+Vec3 joint_axis(const Network& network, const Placement& placement, const Joint& joint);
+
+/// diag(m, m, m, J) of a lumped mass in world axes.
+fem::Mat6 lumped_mass(const LumpedMass& lump, const Mat3& R);
+
+/// Name and unit of an input (N or N m) or output (m, rad and their rates).
+titop::Channel channel(const Input& input);
+titop::Channel channel(const Output& output);
+
+/// S (6×6) with SᵀS = D for a symmetric positive semi-definite D; directions below 1e-12 of diag(`scale`) are exact
+/// zeros. Scaled by diag(scale), so heavy translations do not hide light rotations.
+fem::Mat6 mass_root(const fem::Mat6& D, const fem::Vec6& scale);
+
+}  // namespace tenon::assembly

@@ -1,0 +1,79 @@
+#include "assembly/rank.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+#include "fem/error.hpp"
+
+namespace tenon::assembly {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+RowSpace row_space(const MatrixXd& rows, const VectorXd& lengths, const std::string& what) {
+  const Index m = rows.rows(), n = rows.cols();
+  RowSpace space;
+  space.null = MatrixXd::Identity(n, n);
+  space.range.resize(n, 0);
+  const double eps = std::numeric_limits<double>::epsilon();
+  space.gap = 1.0 / eps;
+  for (int i = 0; i < m; ++i) space.redundant.push_back(i);
+  if (m == 0 || n == 0) return space;
+
+  const VectorXd weight = lengths.unaryExpr([](double l) { return l > 0.0 ? 1.0 / l : 0.0; });
+  const Eigen::ColPivHouseholderQR<MatrixXd> qr((weight.asDiagonal() * rows).transpose());
+  const VectorXd pivots = qr.matrixQR().diagonal().cwiseAbs();
+  const double zero = static_cast<double>(std::max(m, n)) * eps;
+  int rank = 0;
+  while (rank < pivots.size() && pivots[rank] > zero) ++rank;
+  const double dropped = rank < pivots.size() ? pivots[rank] : 0.0;
+  if (rank > 0 && pivots[rank - 1] < 1e3 * zero)
+    throw NumericalError(
+        fmt::format("the rank of {} cannot be decided: one direction is neither free nor held, pivot", what),
+        pivots[rank - 1], "Make parallel axes and coincident ports agree to the last digit, or clearly different");
+  space.rank = rank;
+  if (rank > 0) space.gap = pivots[rank - 1] / std::max(dropped, eps);
+  const MatrixXd Q = qr.householderQ();
+  space.range = Q.leftCols(rank);
+  space.null = Q.rightCols(n - rank);
+  const auto& order = qr.colsPermutation().indices();
+  space.redundant.clear();
+  for (int i = 0; i < m; ++i) (i < rank ? space.independent : space.redundant).push_back(order[i]);
+  std::sort(space.redundant.begin(), space.redundant.end());
+  return space;
+}
+
+GradedQR graded_qr(const MatrixXd& A, const MatrixXd& apply) {
+  std::vector<Index> order(static_cast<std::size_t>(A.rows()));
+  std::iota(order.begin(), order.end(), Index{0});
+  const VectorXd size = A.cols() ? VectorXd(A.cwiseAbs().rowwise().maxCoeff()) : VectorXd::Zero(A.rows());
+  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return size[a] > size[b]; });
+  const Index n = A.cols();
+  GradedQR result;
+  if (n == 0) {
+    result.Qt_apply = apply;
+    return result;
+  }
+  const Eigen::ColPivHouseholderQR<MatrixXd> qr(A(order, Eigen::all));
+  result.R = qr.matrixR().topLeftCorner(n, n).triangularView<Eigen::Upper>();
+  result.P = qr.colsPermutation().indices();
+  if (apply.rows() == A.rows()) {
+    result.Qt_apply = apply(order, Eigen::all);
+    result.Qt_apply.applyOnTheLeft(qr.householderQ().adjoint());
+  }
+  return result;
+}
+
+MatrixXd GradedQR::times_inverse(const MatrixXd& X) const {
+  if (P.size() == 0) return X;
+  MatrixXd Y = X(Eigen::all, std::vector<int>(P.data(), P.data() + P.size()));
+  R.triangularView<Eigen::Upper>().solveInPlace<Eigen::OnTheRight>(Y);
+  return Y;
+}
+
+}  // namespace tenon::assembly
