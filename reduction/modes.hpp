@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 #include <functional>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "fem/structure.hpp"
 
@@ -11,40 +13,56 @@ namespace tenon::reduction {
 /// Called with a fraction 0..1 and the name of the step; may be empty.
 using Progress = std::function<void(double, const char*)>;
 
+/// Who finds the eigenpairs of the shift-invert operator; everything else (shift, checks, count) is the same.
+enum class EigenSolver {
+  block_lanczos,  ///< our own: finds repeated eigenvalues, solves in blocks
+  spectra         ///< Spectra's SymEigsSolver, one vector at a time: a second opinion
+};
+
 /// What to look for: the `count` lowest modes, or every mode below `band` [rad/s] (then `count` is ignored).
 struct ModesOptions {
   int count = 20;
-  std::optional<double> band;  ///< [rad/s]
-  bool certify = true;         ///< inertia count at the upper end
-  double residual_limit = 1e-8;  ///< ‖Kφ − λMφ‖ relative to ‖Kφ‖ + λ‖Mφ‖ (both scaled by the shift on free bodies)
-  int block = 0;                 ///< Lanczos block size; 0: chosen
+  std::optional<double> band = std::nullopt;  ///< [rad/s]
+  bool certify = true;                        ///< inertia count at the upper end
+  /// ‖Kφ − λMφ‖ in the norm of A⁻¹, A = K + sM, relative to ‖φ‖_A: bounds |λ − λ_exact| / (λ + s). (The Euclidean norm
+  /// would weigh the rounding of K φ on a fine mesh, λ_max / λ times the rounding unit, above everything else.)
+  double residual_limit = 1e-8;
+  int block = 0;  ///< Lanczos block size; 0: chosen
+  EigenSolver solver = EigenSolver::block_lanczos;
   int dense_below = 600;  ///< problems of at most this size are solved dense
-  Progress progress;
+  Progress progress = {};
 };
 
 /// Eigenpairs of K φ = ω² M φ, mass-normalised, ascending, sign: largest component positive.
 struct Modes {
-  Eigen::VectorXd lambda;    ///< ω² [rad²/s²]; exactly zero for the rigid modes found in null(K)
-  Eigen::MatrixXd shapes;    ///< n×modes
-  int rigid = 0;             ///< leading modes that are rigid (null(K))
-  int counted = -1;          ///< eigenvalues below `count_shift` by Sylvester's inertia; −1 when not certified
+  Eigen::VectorXd lambda;  ///< ω² [rad²/s²]; exactly zero for the rigid modes found in null(K)
+  Eigen::MatrixXd shapes;  ///< n×modes
+  int rigid = 0;           ///< leading modes with λ = 0: given motions in null(K), mechanisms, loose parts
+  int found = 0;     ///< eigenpairs computed below `count_shift`; more than returned when the last has near company
+  int counted = -1;  ///< eigenvalues below `count_shift` by Sylvester's inertia; −1 when not certified
   double count_shift = 0.0;  ///< σ of the count [rad²/s²]
   double next_lambda =
       0.0;  ///< estimate of the first eigenvalue not returned (0: there is none, all finite ones are here)
-  double max_residual = 0.0;
-  double max_orthogonality = 0.0;  ///< |φᵀMφ − 1|
+  double max_residual = 0.0;       ///< as in ModesOptions::residual_limit
+  double max_orthogonality = 0.0;  ///< largest entry of |ΦᵀMΦ − 1|
 };
 
 /// Lowest modes of a structure, K and M lower triangles, positive semi-definite, M may be singular, K may have rigid
 /// motions. `rigid`: n×r basis of expected rigid-body motions (may be empty, may contain columns outside null(K), which
 /// are dropped). Works on M x = μ (K + |s|M) x, so it never factors an indefinite or singular matrix; each solve is
 /// checked and the number of modes below the upper end is counted by inertia (NUMERICS 4d). Throws NumericalError
-/// naming both counts when they disagree.
+/// naming both counts when they disagree. `names` of the dofs, for messages; may be empty.
 Modes solve_modes(const fem::SparseMatrix& K, const fem::SparseMatrix& M, const Eigen::MatrixXd& rigid,
-                  const ModesOptions& options = {});
+                  const ModesOptions& options = {}, const std::vector<std::string>& names = {});
 
 /// The same for a Structure, rigid motions taken about its nodes' centroid.
 Modes solve_modes(const fem::Structure& structure, const ModesOptions& options = {});
+
+/// The same with K + sM already factored (reduction/shift.hpp), so that one factor serves static solves and modes.
+/// `rigid`: M-orthonormal basis of null(K), kept exactly.
+struct ShiftedFactor;
+Modes solve_modes(const fem::SparseMatrix& K, const fem::SparseMatrix& M, const ShiftedFactor& factored,
+                  const Eigen::MatrixXd& rigid, const ModesOptions& options);
 
 /// Number of eigenvalues of (K, M) below σ: negative pivots of an LDLᵀ with pivoting of K − σM.
 /// Throws NumericalError when σ is so near an eigenvalue that the count is not reliable.

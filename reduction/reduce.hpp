@@ -17,12 +17,12 @@ enum class Basis {
 
 struct ReduceOptions {
   Basis basis = Basis::craig_bampton;
-  int modes = 20;              ///< kept fixed-interface (or clamped) modes, unless `band` is given
-  std::optional<double> band;  ///< keep every mode below this frequency [rad/s] instead
-  bool all_modes = false;      ///< keep every finite mode
-  double zeta = 0.0;           ///< modal damping ratio
-  bool keep_shapes = true;     ///< node shapes for pictures
-  Progress progress;
+  int modes = 20;                             ///< kept fixed-interface (or clamped) modes, unless `band` is given
+  std::optional<double> band = std::nullopt;  ///< keep every mode below this frequency [rad/s] instead
+  bool all_modes = false;                     ///< keep every finite mode
+  double zeta = 0.0;                          ///< modal damping ratio
+  bool keep_shapes = true;                    ///< node shapes for pictures
+  Progress progress = {};
 };
 
 /// Reduces a structure with ports to the form of eq (1). `parent` names the port the body hangs by; every port of the

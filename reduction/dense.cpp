@@ -1,0 +1,95 @@
+#include "reduction/dense.hpp"
+
+#include <cblas.h>
+#include <omp.h>
+
+#include <vector>
+
+#include "fem/error.hpp"
+
+extern "C" {  // LAPACK, as OpenBLAS carries it
+void dsyevd_(const char* job, const char* triangle, const int* n, double* a, const int* lda, double* w, double* work,
+             const int* lwork, int* iwork, const int* liwork, int* info);
+void dpotrf_(const char* triangle, const int* n, double* a, const int* lda, int* info);
+}
+
+namespace tenon::reduction {
+
+namespace {
+
+int blas_int(Eigen::Index n) { return static_cast<int>(n); }
+
+void gemm(CBLAS_TRANSPOSE op, double alpha, const Eigen::Ref<const Eigen::MatrixXd>& A,
+          const Eigen::Ref<const Eigen::MatrixXd>& B, double beta, double* C, Eigen::Index rows, Eigen::Index ld) {
+  if (rows == 0 || B.cols() == 0 || B.rows() == 0) return;
+  cblas_dgemm(CblasColMajor, op, CblasNoTrans, blas_int(rows), blas_int(B.cols()), blas_int(B.rows()), alpha, A.data(),
+              blas_int(A.outerStride()), B.data(), blas_int(B.outerStride()), beta, C, blas_int(ld));
+}
+
+}  // namespace
+
+Eigen::MatrixXd transposed_product(const Eigen::Ref<const Eigen::MatrixXd>& A,
+                                   const Eigen::Ref<const Eigen::MatrixXd>& B) {
+  Eigen::MatrixXd C = Eigen::MatrixXd::Zero(A.cols(), B.cols());
+  gemm(CblasTrans, 1.0, A, B, 0.0, C.data(), A.cols(), C.rows());
+  return C;
+}
+
+Eigen::MatrixXd product(const Eigen::Ref<const Eigen::MatrixXd>& A, const Eigen::Ref<const Eigen::MatrixXd>& B) {
+  Eigen::MatrixXd C = Eigen::MatrixXd::Zero(A.rows(), B.cols());
+  gemm(CblasNoTrans, 1.0, A, B, 0.0, C.data(), A.rows(), C.rows());
+  return C;
+}
+
+void subtract_product(const Eigen::Ref<const Eigen::MatrixXd>& A, const Eigen::Ref<const Eigen::MatrixXd>& B,
+                      Eigen::Ref<Eigen::MatrixXd> C) {
+  gemm(CblasNoTrans, -1.0, A, B, 1.0, C.data(), A.rows(), C.outerStride());
+}
+
+SymmetricEigen symmetric_eigen(Eigen::MatrixXd A) {
+  SymmetricEigen result;
+  const int n = blas_int(A.rows());
+  result.values.resize(n);
+  if (n == 0) return result;
+  int info = 0, query = -1, integers = 0;
+  double reals = 0.0;
+  dsyevd_("V", "L", &n, A.data(), &n, result.values.data(), &reals, &query, &integers, &query, &info);
+  const int n_reals = static_cast<int>(reals), n_integers = integers;
+  std::vector<double> work(static_cast<std::size_t>(n_reals));
+  std::vector<int> integer_work(static_cast<std::size_t>(n_integers));
+  dsyevd_("V", "L", &n, A.data(), &n, result.values.data(), work.data(), &n_reals, integer_work.data(), &n_integers,
+          &info);
+  if (info != 0)
+    throw NumericalError("the dense symmetric eigenvalue solver did not converge", info,
+                         "Check the matrix for entries that are not finite");
+  result.vectors = std::move(A);
+  return result;
+}
+
+int cholesky_in_place(Eigen::MatrixXd& A) {
+  const int n = blas_int(A.rows());
+  if (n == 0) return -1;
+  int info = 0;
+  dpotrf_("L", &n, A.data(), &n, &info);
+  A.triangularView<Eigen::StrictlyUpper>().setZero();
+  return info - 1;
+}
+
+void triangular_solve(const Eigen::MatrixXd& L, Eigen::Ref<Eigen::MatrixXd> B, bool transposed) {
+  if (L.rows() == 0 || B.cols() == 0) return;
+  cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, transposed ? CblasTrans : CblasNoTrans, CblasNonUnit,
+              blas_int(L.rows()), blas_int(B.cols()), 1.0, L.data(), blas_int(L.rows()), B.data(),
+              blas_int(B.outerStride()));
+}
+
+ThreadLimit::ThreadLimit(int blas_threads) : levels_(omp_get_max_active_levels()), blas_(openblas_get_num_threads()) {
+  omp_set_max_active_levels(0);
+  openblas_set_num_threads(blas_threads);
+}
+
+ThreadLimit::~ThreadLimit() {
+  omp_set_max_active_levels(levels_);
+  openblas_set_num_threads(blas_);
+}
+
+}  // namespace tenon::reduction

@@ -1,0 +1,158 @@
+#include "reduction/shift.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fem/error.hpp"
+#include "reduction/block_lanczos.hpp"
+#include "reduction/shift_invert.hpp"
+#include "reduction/sparse.hpp"
+
+namespace tenon::reduction {
+
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double rigid_limit = 1e-9;  // of |K||r|, row by row: FE matrices leave 1e-10 and less
+constexpr double near_enough = 30.0;  // s may exceed the first flexible eigenvalue by this
+
+std::string dof_name(const std::vector<std::string>& names, int row) {
+  const auto r = static_cast<std::size_t>(row);
+  return r < names.size() ? names[r] : fmt::format("row {}", row);
+}
+
+// least K_ii / M_ii > 0: a Rayleigh quotient, so never below the lowest eigenvalue
+double least_diagonal_ratio(const fem::SparseMatrix& K, const fem::SparseMatrix& M) {
+  const Eigen::VectorXd k = K.diagonal(), m = M.diagonal();
+  double least = std::numeric_limits<double>::infinity();
+  for (Eigen::Index i = 0; i < k.size(); ++i)
+    if (k[i] > 0.0 && m[i] > 0.0) least = std::min(least, k[i] / m[i]);
+  return least;
+}
+
+}  // namespace
+
+Eigen::MatrixXd null_motions(const fem::SparseMatrix& K, const fem::SparseMatrix& M,
+                             const Eigen::MatrixXd& candidates) {
+  const Eigen::Index n = K.rows();
+  if (candidates.cols() == 0 || n == 0) return Eigen::MatrixXd(n, 0);
+  // candidates in the norm of diag(K): singular vectors of D^{-1/2} K R, smallest values first, are tested one by one
+  Eigen::VectorXd d = K.diagonal().cwiseMax(0.0);
+  const double fill = d.maxCoeff() > 0.0 ? d.maxCoeff() : 1.0;
+  for (double& x : d) x = std::sqrt(x > 0.0 ? x : fill);
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(d.asDiagonal() * candidates);
+  qr.setThreshold(1e-12);
+  const Eigen::Index r = qr.rank();
+  if (r == 0) return Eigen::MatrixXd(n, 0);
+  const Eigen::MatrixXd basis = d.cwiseInverse().asDiagonal() * (qr.householderQ() * Eigen::MatrixXd::Identity(n, r));
+  const Eigen::MatrixXd KR = d.cwiseInverse().asDiagonal() * symmetric_product(K, basis);
+  const Eigen::MatrixXd small =
+      Eigen::HouseholderQR<Eigen::MatrixXd>(KR).matrixQR().topRows(r).triangularView<Eigen::Upper>();
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(small, Eigen::ComputeFullV);
+  Eigen::MatrixXd found(n, 0);
+  for (Eigen::Index k = r - 1; k >= 0; --k) {
+    const Eigen::VectorXd x = basis * svd.matrixV().col(k);
+    const Eigen::VectorXd force = symmetric_product(K, x), scale = absolute_product(K, x);
+    const double floor = epsilon * scale.maxCoeff();
+    if (((force.cwiseAbs().array() > rigid_limit * scale.array() + floor)).any()) continue;
+    found.conservativeResize(Eigen::NoChange, found.cols() + 1);
+    found.rightCols(1) = x;
+  }
+  for (int pass = 0; pass < 2 && found.cols() > 0; ++pass) {  // M-orthonormal: R ← R (RᵀMR)^{-1/2}
+    const Eigen::VectorXd scale = found.colwise().norm().cwiseInverse();
+    if (pass == 0) found = (found * scale.asDiagonal()).eval();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> gram(found.transpose() * symmetric_product(M, found));
+    const double least = gram.eigenvalues()[0], most = gram.eigenvalues()[found.cols() - 1];
+    if (!(least > 1e-14 * most))
+      throw ModelError("a rigid motion of the structure carries no mass",
+                       "Give it mass (density, point masses) or supports; a free body of zero mass has no modes");
+    found = (found * gram.eigenvectors() * gram.eigenvalues().cwiseSqrt().cwiseInverse().asDiagonal()).eval();
+  }
+  return found;
+}
+
+double lambda_noise(const fem::SparseMatrix& K, const Eigen::VectorXd& x, double modal_mass) {
+  return epsilon * x.cwiseAbs().dot(absolute_product(K, x)) / modal_mass;
+}
+
+int free_row(const fem::SparseMatrix& K, const Factor& factor) {
+  if (factor.report().lost_digits < 10.0) return -1;  // no pivot came near cancellation
+  Eigen::MatrixXd x(K.rows(), 1);
+  for (Eigen::Index k = 0; k < x.rows(); ++k) x(k, 0) = std::sin(1.0 + 1.7 * static_cast<double>(k));
+  for (int pass = 0; pass < 2; ++pass) {
+    x = factor.solve(x);
+    x /= x.norm();
+  }
+  const double energy = x.col(0).dot(symmetric_product(K, x).col(0));
+  if (energy > 100.0 * epsilon * x.col(0).cwiseAbs().dot(absolute_product(K, x.col(0)))) return -1;
+  Eigen::Index row = 0;
+  x.col(0).cwiseAbs().maxCoeff(&row);
+  return static_cast<int>(row);
+}
+
+Eigen::MatrixXd locked_motions(const Factor& factor, const fem::SparseMatrix& M, const Eigen::MatrixXd& rigid) {
+  if (rigid.cols() == 0) return Eigen::MatrixXd(factor.n(), 0);
+  const Eigen::MatrixXd Y = factor.half_solve(symmetric_product(M, rigid));
+  Eigen::HouseholderQR<Eigen::MatrixXd> qr(Y);
+  return qr.householderQ() * Eigen::MatrixXd::Identity(Y.rows(), Y.cols());
+}
+
+namespace {
+
+// first eigenvalue that is not zero, from above, by four block steps at the shift at hand
+double first_flexible(const fem::SparseMatrix& K, const fem::SparseMatrix& M, const Eigen::MatrixXd& rigid,
+                      const ShiftedFactor& at) {
+  const ShiftInvert op(at.factor, M);
+  const Eigen::MatrixXd locked = locked_motions(at.factor, M, rigid);
+  const LanczosOptions options{.wanted = 8, .block = 8, .max_steps = 4};
+  const LanczosResult run = block_lanczos(
+      op, options, locked, [](const RitzValues&) { return false; }, [](const RitzValues&) { return 16; });
+  const Eigen::MatrixXd X = op.shapes(run.vectors);
+  double least = std::numeric_limits<double>::infinity();
+  for (Eigen::Index j = 0; j < X.cols(); ++j) {
+    const Eigen::VectorXd x = X.col(j);
+    const double mass = x.dot(symmetric_product(M, x).col(0));
+    if (!(run.ritz.theta[j] > 1e-12 * run.ritz.theta[0])) continue;  // infinite modes
+    const double lambda = x.dot(symmetric_product(K, x).col(0)) / mass;
+    if (lambda > 1e4 * lambda_noise(K, x, mass)) least = std::min(least, lambda);
+  }
+  return least;
+}
+
+}  // namespace
+
+ShiftedFactor choose_shift(const fem::SparseMatrix& K, const fem::SparseMatrix& M, const Eigen::MatrixXd& rigid,
+                           const std::vector<std::string>& names) {
+  fem::SparseMatrix A = shifted(K, M, 0.0);
+  ShiftedFactor at{0.0, A, Factor(A)};
+  if (rigid.cols() == 0 && at.factor.try_factorize(at.A) < 0 && free_row(K, at.factor) < 0) return at;
+
+  const double ratio = least_diagonal_ratio(K, M);
+  const double start = std::isfinite(ratio) ? 1e-3 * ratio : 1.0;
+  at.s = start;
+  int row = -1;
+  for (int attempt = 0; attempt < 8; ++attempt) {
+    at.A = shifted(K, M, at.s);
+    row = at.factor.try_factorize(at.A);
+    if (row >= 0) {
+      at.s *= 100.0;
+      continue;
+    }
+    const double flexible = first_flexible(K, M, rigid, at);
+    if (!std::isfinite(flexible) || at.s <= near_enough * flexible) return at;
+    at.s = flexible;
+  }
+  if (row < 0) return at;
+  throw NumericalError(
+      fmt::format("K + sM is not positive definite for any shift s tried: the pivot of {} fails, the last shift is",
+                  dof_name(names, row)),
+      at.s, "Something there has neither stiffness nor mass, or a negative one: look for loose parts and wrong signs");
+}
+
+}  // namespace tenon::reduction

@@ -1,0 +1,66 @@
+#include "reduction/sparse.hpp"
+
+#include <cmath>
+
+namespace tenon::reduction {
+
+Eigen::VectorXd absolute_product(const fem::SparseMatrix& A, const Eigen::Ref<const Eigen::VectorXd>& x) {
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(A.rows());
+  for (int j = 0; j < A.outerSize(); ++j)
+    for (fem::SparseMatrix::InnerIterator it(A, j); it; ++it) {
+      const double a = std::abs(it.value());
+      y[it.row()] += a * std::abs(x[j]);
+      if (it.row() != j) y[j] += a * std::abs(x[it.row()]);
+    }
+  return y;
+}
+
+fem::SparseMatrix shifted(const fem::SparseMatrix& K, const fem::SparseMatrix& M, double s) {
+  const int n = static_cast<int>(K.rows());
+  fem::SparseMatrix A(n, n);
+  std::vector<int> start{0}, rows;
+  std::vector<double> values;
+  const auto entries = static_cast<std::size_t>(std::max(K.nonZeros(), M.nonZeros()));
+  start.reserve(static_cast<std::size_t>(n) + 1);
+  rows.reserve(entries);
+  values.reserve(entries);
+  for (int j = 0; j < n; ++j) {  // merge two sorted columns, the diagonal always there
+    fem::SparseMatrix::InnerIterator k(K, j), m(M, j);
+    if ((!k || k.row() != j) && (!m || m.row() != j)) {
+      rows.push_back(j);
+      values.push_back(0.0);
+    }
+    while (k || m) {
+      const bool from_k = k && (!m || k.row() <= m.row()), from_m = m && (!k || m.row() <= k.row());
+      rows.push_back(static_cast<int>(from_k ? k.row() : m.row()));
+      values.push_back((from_k ? k.value() : 0.0) + (from_m ? s * m.value() : 0.0));
+      if (from_k) ++k;
+      if (from_m) ++m;
+    }
+    start.push_back(static_cast<int>(rows.size()));
+  }
+  A = Eigen::Map<const fem::SparseMatrix>(n, n, static_cast<Eigen::Index>(rows.size()), start.data(), rows.data(),
+                                          values.data());
+  return A;
+}
+
+fem::SparseMatrix principal(const fem::SparseMatrix& A, const std::vector<int>& keep) {
+  std::vector<int> place(static_cast<std::size_t>(A.rows()), -1);
+  for (std::size_t k = 0; k < keep.size(); ++k) place[static_cast<std::size_t>(keep[k])] = static_cast<int>(k);
+  const auto n = static_cast<int>(keep.size());
+  std::vector<int> start{0}, rows;
+  std::vector<double> values;
+  for (int j = 0; j < n; ++j) {
+    for (fem::SparseMatrix::InnerIterator it(A, keep[static_cast<std::size_t>(j)]); it; ++it) {
+      const int i = place[static_cast<std::size_t>(it.row())];
+      if (i < 0) continue;
+      rows.push_back(i);
+      values.push_back(it.value());
+    }
+    start.push_back(static_cast<int>(rows.size()));
+  }
+  return Eigen::Map<const fem::SparseMatrix>(n, n, static_cast<Eigen::Index>(rows.size()), start.data(), rows.data(),
+                                             values.data());
+}
+
+}  // namespace tenon::reduction
