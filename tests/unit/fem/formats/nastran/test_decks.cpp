@@ -1,28 +1,11 @@
-#include <cstdlib>
-
 #include "tests/unit/fem/formats/nastran/deck_file.hpp"
+#include "tests/unit/fem/formats/nastran/reference_decks.hpp"
 
 using namespace tenon;
 using namespace tenon::fem;
 using ::testing::ElementsAre;
 
-// The decks of the reference truss with two booms (NX Nastran runs). They are no part of a clone of the project.
 namespace {
-
-std::filesystem::path shared_deck(const std::string& name) {
-  const char* variable = std::getenv("TENON_SHARED");
-  const std::filesystem::path shared =
-      variable ? std::filesystem::path(variable) : std::filesystem::path(TENON_SOURCE_DIR) / ".." / "shared";
-  return shared / "data" / "nastran-cb" / name;
-}
-
-class NastranDecks : public ::testing::Test {
- protected:
-  void SetUp() override {
-    if (!std::filesystem::exists(shared_deck("full.dat")))
-      GTEST_SKIP() << "the reference decks are not here: set TENON_SHARED to the folder that holds data/nastran-cb";
-  }
-};
 
 std::vector<long> ids(const Model& model, const std::vector<int>& nodes) {
   std::vector<long> result;
