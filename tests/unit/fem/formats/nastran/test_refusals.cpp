@@ -77,7 +77,7 @@ TEST(NastranRefusals, EveryPrefixOfADeckIsReadOrRefusedButNeverCrashes) {
       "SPC1,1,123456,1\nSPOINT,11,THRU,12\nMPC,2,3,4,1.,11,0,1.\nCONM2,9,2,,1.\n,1.,0.,1.,0.,0.,1.\nENDDATA\n";
   EXPECT_EQ(read_deck(deck).mesh.points.size(), 3U);
   const std::size_t complete = deck.find("ENDDATA") + 7;
-  const testing::Scratch folder;
+  const tenon::fem::testing::Scratch folder;
   for (std::size_t n = 0; n < complete; ++n)
     EXPECT_THROW(read_nastran(folder.write("deck.bdf", deck.substr(0, n))), InputError) << deck.substr(0, n);
 }
