@@ -103,9 +103,9 @@ SceneSection read_section(const Member& entry, const Value* body_material, const
 
   fem::BeamSection beam = read_beam_shape(key, *map.find(key), section.material.nu, units);
   if (const Value* shear = map.find("shear")) {
-    if (choice(*shear, {"timoshenko", "euler-bernoulli"}) == 1) {
+    if (const int theory = choice(*shear, {"timoshenko", "rayleigh", "euler-bernoulli"}); theory > 0) {
       beam = fem::rigid_in_shear(beam);
-      section.rotary_inertia = false;
+      section.rotary_inertia = theory == 1;
     } else if (beam.kappa_y == 0.0 || beam.kappa_z == 0.0) {
       throw InputError(shear->place, fmt::format("{} has no shear coefficients", what), "Give kappa_y and kappa_z");
     }

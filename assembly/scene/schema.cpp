@@ -25,18 +25,19 @@ const Schema general_section{"a general beam section",
                               {"kappa_y", scalar, "shear coefficient for forces along y"},
                               {"kappa_z", scalar, "shear coefficient for forces along z"}}};
 
-const Schema section{"a section",
-                     {{"shell", scalar, "thickness"},
-                      {"tube", list, "[outer, inner] radii"},
-                      {"circle", scalar, "radius"},
-                      {"rectangle", list, "[b along y, h along z]"},
-                      {"box", list, "[b along y, h along z, wall thickness], outer sizes"},
-                      {"general", map, "section constants", false, &general_section},
-                      {"shear", scalar, "timoshenko (default) or euler-bernoulli"},
-                      {"orientation", list, "a vector that spans, with the beam's axis, its x-y plane"},
-                      {"offset", list, "from the nodes to the beam's axis"},
-                      {"material", scalar | map, "in place of the body's", false, &material},
-                      {"nsm", scalar, "non-structural mass per length (beams) or area (shells)"}}};
+const Schema section{
+    "a section",
+    {{"shell", scalar, "thickness"},
+     {"tube", list, "[outer, inner] radii"},
+     {"circle", scalar, "radius"},
+     {"rectangle", list, "[b along y, h along z]"},
+     {"box", list, "[b along y, h along z, wall thickness], outer sizes"},
+     {"general", map, "section constants", false, &general_section},
+     {"shear", scalar, "timoshenko (default), rayleigh (rotary inertia, no shear) or euler-bernoulli (neither)"},
+     {"orientation", list, "a vector that spans, with the beam's axis, its x-y plane"},
+     {"offset", list, "from the nodes to the beam's axis"},
+     {"material", scalar | map, "in place of the body's", false, &material},
+     {"nsm", scalar, "non-structural mass per length (beams) or area (shells)"}}};
 
 const Schema rotation{"a rotation",
                       {{"axis", scalar | list, "x, y, z or a vector", true}, {"angle", scalar, "e.g. 180 deg", true}}};
