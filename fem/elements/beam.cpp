@@ -54,15 +54,36 @@ const Table hh = table(1.0 / 30, {36, 3, -36, 3, 3, 4, -3, -1, -36, -3, 36, -3, 
 const Table hl = table(1.0 / 12, {0, -6, 0, -6, 0, 1, 0, -1, 0, 6, 0, 6, 0, -1, 0, 1});          // H' l
 const Table ll = table(1.0 / 6, {0, 0, 0, 0, 0, 2, 0, 1, 0, 0, 0, 0, 0, 1, 0, 2});               // l l
 
-/// A ⊗ X onto the transverse dofs of a 12×12 matrix: table row 2n is v of node n, 2n+1 is h s.
-void add_transverse(Mat12& out, const Table& A, const Mat2& X, double h) {
-  static constexpr int dof[4][2] = {{1, 2}, {5, 4}, {7, 8}, {11, 10}};    // (u_y u_z), (r_z r_y)
-  const double scale[4][2] = {{1.0, 1.0}, {h, -h}, {1.0, 1.0}, {h, -h}};  // s_z = −r_y
-  for (int i = 0; i < 4; ++i)
-    for (int j = 0; j < 4; ++j)
-      for (int a = 0; a < 2; ++a)
-        for (int b = 0; b < 2; ++b) out(dof[i][a], dof[j][b]) += scale[i][a] * scale[j][b] * A(i, j) * X(a, b);
-}
+/// A sum of Kronecker products Σ A ⊗ X with its transpose's terms in, over (v₁, h s₁, v₂, h s₂): 2×2 blocks i ≤ j.
+class Transverse {
+ public:
+  /// += A ⊗ X, both symmetric
+  void add(const Table& A, const Mat2& X) {
+    for (int i = 0, n = 0; i < 4; ++i)
+      for (int j = i; j < 4; ++j, ++n) block_[static_cast<std::size_t>(n)] += A(i, j) * X;
+  }
+  /// += A ⊗ X + A' ⊗ X'
+  void add_with_transpose(const Table& A, const Mat2& X) {
+    const Mat2 Xt = X.transpose();
+    for (int i = 0, n = 0; i < 4; ++i)
+      for (int j = i; j < 4; ++j, ++n) block_[static_cast<std::size_t>(n)] += A(i, j) * X + A(j, i) * Xt;
+  }
+  /// Onto the dofs of a 12×12 matrix: s = (r_z, −r_y), h s scaled to s.
+  void place(Mat12& out, double h) const {
+    static constexpr int dof[4][2] = {{1, 2}, {5, 4}, {7, 8}, {11, 10}};
+    const double scale[4][2] = {{1.0, 1.0}, {h, -h}, {1.0, 1.0}, {h, -h}};
+    for (int i = 0, n = 0; i < 4; ++i)
+      for (int j = i; j < 4; ++j, ++n)
+        for (int a = 0; a < 2; ++a)
+          for (int b = 0; b < 2; ++b)
+            out(dof[i][a], dof[j][b]) = out(dof[j][b], dof[i][a]) =
+                scale[i][a] * scale[j][b] * block_[static_cast<std::size_t>(n)](a, b);
+  }
+
+ private:
+  std::array<Mat2, 10> block_{Mat2::Zero(), Mat2::Zero(), Mat2::Zero(), Mat2::Zero(), Mat2::Zero(),
+                              Mat2::Zero(), Mat2::Zero(), Mat2::Zero(), Mat2::Zero(), Mat2::Zero()};
+};
 
 void add_bar(Mat12& out, int dof, double diagonal, double coupling) {
   out(dof, dof) += diagonal;
@@ -132,40 +153,39 @@ void beam_matrices(const Beam& beam, const BeamSection& section, const Material&
   const Mat2 PQ = P * Q;  // 1 − Q, without cancellation
 
   Mat12 K = Mat12::Zero(), M = Mat12::Zero();
-  const double EA_h = E * section.A / h, GJ_h = material.G * section.J / h, h3 = h * h * h;
+  const double EA_h = E * section.A / h, GJ_h = material.G * section.J / h;
   add_bar(K, 0, EA_h, -EA_h);
   add_bar(K, 3, GJ_h, -GJ_h);
-  add_transverse(K, k_H, symmetric(B * Q) / h3, h);  // (3)
-  add_transverse(K, k_L, symmetric(B * PQ) / h3, h);
+  Transverse k, m;
+  k.add(k_H, symmetric(B * Q) / (h * h * h));  // (3)
+  k.add(k_L, symmetric(B * PQ) / (h * h * h));
+  k.place(K, h);
 
-  const double m = rho * section.A + section.nsm;  // [kg/m]
-  const double rho_Ip = rho * (section.Iy + section.Iz);
+  const double mass = (rho * section.A + section.nsm) * h;       // [kg]
+  const double torsional = rho * (section.Iy + section.Iz) * h;  // [kg m²]
   if (beam.mass == BeamMass::nastran) {
-    add_bar(M, 0, m * h * 5.0 / 12.0, m * h / 12.0);
-    add_transverse(M, HH, m * h * Mat2::Identity(), h);
+    add_bar(M, 0, mass * 5.0 / 12.0, mass / 12.0);
+    m.add(HH, mass * Mat2::Identity());
   } else {
     const bool high = beam.mass == BeamMass::high_order;
     const double diagonal = high ? 5.0 / 12.0 : 1.0 / 3.0, coupling = high ? 1.0 / 12.0 : 1.0 / 6.0;
-    add_bar(M, 0, m * h * diagonal, m * h * coupling);
-    add_bar(M, 3, rho_Ip * h * diagonal, rho_Ip * h * coupling);
-    const Mat2 mixed = Q.transpose() * PQ;
-    add_transverse(M, HH, m * h * Q.transpose() * Q, h);  // (4)
-    add_transverse(M, HL, m * h * mixed, h);
-    add_transverse(M, HL.transpose(), m * h * mixed.transpose(), h);
-    add_transverse(M, LL, m * h * PQ.transpose() * PQ, h);
+    add_bar(M, 0, mass * diagonal, mass * coupling);
+    add_bar(M, 3, torsional * diagonal, torsional * coupling);
+    m.add(HH, mass * Q.transpose() * Q);  // (4)
+    m.add_with_transpose(HL, mass * Q.transpose() * PQ);
+    m.add(LL, mass * PQ.transpose() * PQ);
     if (beam.rotary_inertia) {
-      const Mat2 r = rho / h * I;
-      const Mat2 r_mixed = Q.transpose() * r * PQ;
-      add_transverse(M, hh, Q.transpose() * r * Q, h);
-      add_transverse(M, hl, r_mixed, h);
-      add_transverse(M, hl.transpose(), r_mixed.transpose(), h);
-      add_transverse(M, ll, PQ.transpose() * r * PQ, h);
+      const Mat2 rho_I = rho / h * I;
+      m.add(hh, Q.transpose() * rho_I * Q);
+      m.add_with_transpose(hl, Q.transpose() * rho_I * PQ);
+      m.add(ll, PQ.transpose() * rho_I * PQ);
     }
     if (high) {  // c K_e of (5), B cancelled: Q(1+5P) = 5 − 4Q and (1−Q)(1+5P) = 5P − 4(1−Q)
-      add_transverse(M, k_H, m * h / 720.0 * symmetric(5.0 * Mat2::Identity() - 4.0 * Q), h);
-      add_transverse(M, k_L, m * h / 720.0 * symmetric(5.0 * P - 4.0 * PQ), h);
+      m.add(k_H, mass / 720.0 * symmetric(5.0 * Mat2::Identity() - 4.0 * Q));
+      m.add(k_L, mass / 720.0 * symmetric(5.0 * P - 4.0 * PQ));
     }
   }
+  m.place(M, h);
 
   const std::array<Vec3, 2> arms{R.transpose() * beam.offsets[0], R.transpose() * beam.offsets[1]};
   to_basic_frame<2>(K, R, arms, out.K);

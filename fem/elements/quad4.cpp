@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
+#include <Eigen/LU>
 
 #include "fem/elements/basic_frame.hpp"
 #include "fem/elements/shell.hpp"
@@ -8,24 +8,39 @@
 #include "fem/error.hpp"
 
 // Natural coordinates r, s in −1..1; h = rs. The shape functions split into what linear fields see and an hourglass,
-//   N_i = Δ_i + b_i x + c_i y + γ_i h,   γ_i = ¼ [h_i − (Σ h_j x_j) b_i − (Σ h_j y_j) c_i],   ∇N_i = (b_i, c_i) + γ_i
-//   ∇h   (1)
-// (Flanagan, Belytschko, IJNME 17 (1981) 679): γ is blind to every linear field, whatever the quad's shape.
+//
+//   N_i = Δ_i + b_i x + c_i y + γ_i h,   γ_i = ¼ [h_i − (Σ h_j x_j) b_i − (Σ h_j y_j) c_i]                          (1)
+//
+// so ∇N_i = (b_i, c_i) + γ_i ∇h, and γ is blind to every linear field, whatever the quad's shape (Flanagan, Belytschko,
+// IJNME 17 (1981) 679).
 //
 // Membrane: bilinear u, v with incompatible modes 1−r², 1−s² whose gradients are those of the centre scaled by j₀/j, so
 // that constant stress does no work on them (Taylor, Beresford, Wilson, IJNME 10 (1976) 1211): in-plane bending exact
-// in rectangles, patch test in any quad. Drilling: α G t ∫ (θz − ½(v,x − u,y))² dA, Hughes, Brezzi, CMAME 72 (1989)
-// 105, with α = 10⁻³ instead of 1. The rotation of the bilinear field is only half of that in bending; α = 1 would
-// stiffen a bent row of elements, 10⁻³ does not (below 10⁻⁴ of its deflection). Drilling has no mass, so it is
-// condensed statically and however weak adds no mode; rotations of the whole give exactly zero.
+// in rectangles, patch test in any quad.
 //
-// Plate: shell_theory.hpp. In a plane wave of the thin plate, w = e^{i(ξx+ηy)} on a lattice of a×b rectangles, the
-// element's energy relative to the continuum's differs by the second-order form
-//   −q₁ ξ²η² (ξ²b² + η²a²) − ν/6 ξ²η² (ξ²a² + η²b²) − (1−ν)/2 (1/12 + q₂) ξ²η² (ξ²a² + η²b²) (2)
-// with q = ¼ (1 − f/3), f the factor on the energy of the hourglass part of κ_x, κ_y (q₁) and of κ_xy (q₂). f = 1 is
-// too soft in oblique directions; f₁ = 3, f₂ = 4/(1−ν) make (2) vanish: fourth order where the mesh is rectangular, and
-// a smaller constant elsewhere. The added energy is
-//   D/(1+φ) { 2 q_x² ∫h_x² + 2 q_y² ∫h_y² + ½(3+ν) ∫(q_x h_y + q_y h_x)² },   q_x = Σ γ_i β_xi,  q_y = Σ γ_i β_yi (3)
+// Drilling, relative to the membrane's rotation ω = ½(v,x − u,y), never to ground (Hughes, Brezzi, CMAME 72 (1989)
+// 105):
+//
+//   ½ G t A (θ̄ − ω̄)² + ½ α G t ∫ (θz − ω)² dA,   α = 10⁻³; bars are means over the element                         (2)
+//
+// The means agree in linear fields and in in-plane bending, so their stiffness may have its natural size G t. It is
+// needed where facets meet at an angle and bending moments pass as drilling ones: without it the twisted beam of
+// MacNeal and Harder comes out 30 % soft. The second term keeps the other three θz patterns from being mechanisms and
+// must be weak: over a curved surface the nodal rotation's part along each facet's normal varies with no strain in the
+// shell, and α = 1 locks the thin hemisphere to a quarter of its deflection. Drilling has no mass: it is condensed
+// statically and however weak adds no mode.
+//
+// Plate: shell_theory.hpp. In a plane wave of the thin plate, w = exp i(ξx+ηy) on a lattice of a×b rectangles, the
+// element's energy differs from the continuum's, D/2 (ξ²+η²)², by the second-order form
+//
+//   −½ D ξ²η² { q₁ (ξ²b² + η²a²) + [ν/6 + (1−ν)/2 (1/12 + q₂)] (ξ²a² + η²b²) },   q = ¼ (1 − f/3)                   (3)
+//
+// f being a factor on the energy of the hourglass part of κ_x, κ_y (f₁) and of κ_xy (f₂). With f = 1 it is too soft in
+// oblique directions; f₁ = 3, f₂ = 4/(1−ν) make (3) vanish: fourth order where the mesh is rectangular and the edges
+// are held, a smaller constant elsewhere. The energy to add is
+//
+//   D/(1+φ) { q_x² ∫h_x² + q_y² ∫h_y² + ¼(3+ν) ∫(q_x h_y + q_y h_x)² },   q_x = Σ γ_i β_xi,  q_y = Σ γ_i β_yi (4)
+//
 // zero for constant curvature by (1). Like the edge rotations it fades as φ → ∞, where plain MITC4 remains.
 namespace tenon::fem {
 namespace {
@@ -33,11 +48,12 @@ namespace {
 using Mat2 = Eigen::Matrix2d;
 using Vec4 = Eigen::Vector4d;
 using Mat4 = Eigen::Matrix4d;
-using Row12 = Eigen::Matrix<double, 1, 12>;
+using Column12 = Eigen::Matrix<double, 12, 1>;
 using Mat12 = Eigen::Matrix<double, 12, 12>;
-using Mat24 = Eigen::Matrix<double, 24, 24>;
 
 const Vec4 corner_r(-1.0, 1.0, 1.0, -1.0), corner_s(-1.0, -1.0, 1.0, 1.0), corner_h(1.0, -1.0, 1.0, -1.0);
+
+constexpr double alpha = 1e-3;  // of (2)
 
 /// The quad flattened onto its mean plane.
 struct FlatQuad {
@@ -82,8 +98,9 @@ FlatQuad flatten(const Quad4& quad, std::span<const Vec3> nodes) {
 /// Shape functions and metric at (r, s).
 struct Point {
   Vec4 N, N_x, N_y;
-  Mat2 J_inv;  ///< [r,x s,x; r,y s,y]
-  double dA;   ///< j
+  Mat2 J_inv;              ///< [r,x s,x; r,y s,y]
+  Eigen::Vector2d grad_h;  ///< of h = rs
+  double dA;               ///< j
 };
 
 Point at(const FlatQuad& q, double r, double s) {
@@ -97,6 +114,7 @@ Point at(const FlatQuad& q, double r, double s) {
   p.J_inv /= p.dA;
   p.N_x = p.J_inv(0, 0) * N_r + p.J_inv(0, 1) * N_s;
   p.N_y = p.J_inv(1, 0) * N_r + p.J_inv(1, 1) * N_s;
+  p.grad_h = p.J_inv * Eigen::Vector2d(s, r);
   return p;
 }
 
@@ -119,51 +137,65 @@ Points points(const FlatQuad& flat) {
   return p;
 }
 
-/// Stiffness over (u v θz).
-Mat12 membrane_stiffness(const ShellTheory& theory, const Points& points) {
+/// Stiffness over (u v θz). By (1) the strain is B₀ u + H q, q = (Σγ_i u_i, Σγ_i v_i), H = [h_x 0; 0 h_y; h_y h_x], and
+/// with ∫H = ∫G = 0 (G: gradients of the incompatible modes) the condensed stiffness is
+///   A B₀' D B₀ + γγ' ⊗ S,   S = ∫H'DH − ∫H'DG (∫G'DG)⁻¹ ∫G'DH
+Mat12 membrane_stiffness(const ShellTheory& theory, const Points& points, const Vec4& gamma) {
+  const Mat3& D = theory.membrane;
+  const auto strain = [](const Eigen::Vector2d& gradient) {
+    return (Eigen::Matrix<double, 3, 2>() << gradient.x(), 0.0, 0.0, gradient.y(), gradient.y(), gradient.x())
+        .finished();
+  };
+  Mat2 HH = Mat2::Zero();
+  Eigen::Matrix<double, 2, 4> HG = Eigen::Matrix<double, 2, 4>::Zero();
+  Mat4 GG = Mat4::Zero();
   Mat12 K = Mat12::Zero();
-  Eigen::Matrix<double, 12, 4> K_ua = Eigen::Matrix<double, 12, 4>::Zero();
-  Mat4 K_aa = Mat4::Zero();
   for (std::size_t g = 0; g < 4; ++g) {
     const Point& p = points.gauss[g];
-    Eigen::Matrix<double, 3, 12> B = Eigen::Matrix<double, 3, 12>::Zero();
-    Row12 relative;  // θz − ½ (v,x − u,y)
-    for (int i = 0; i < 4; ++i) {
-      B(0, 3 * i) = B(2, 3 * i + 1) = p.N_x[i];
-      B(1, 3 * i + 1) = B(2, 3 * i) = p.N_y[i];
-      relative[3 * i] = 0.5 * p.N_y[i];
-      relative[3 * i + 1] = -0.5 * p.N_x[i];
-      relative[3 * i + 2] = p.N[i];
-    }
-    Eigen::Matrix<double, 3, 4> G = Eigen::Matrix<double, 3, 4>::Zero();  // of the incompatible modes
     const double scale = -2.0 * points.centre.dA / p.dA;
-    for (int a = 0; a < 2; ++a) {
-      const Eigen::Vector2d gradient = scale * (a == 0 ? points.r[g] : points.s[g]) * points.centre.J_inv.col(a);
-      G(0, 2 * a) = G(2, 2 * a + 1) = gradient.x();
-      G(1, 2 * a + 1) = G(2, 2 * a) = gradient.y();
-    }
-    const Eigen::Matrix<double, 3, 12> DB = p.dA * theory.membrane * B;
-    const Eigen::Matrix<double, 3, 4> DG = p.dA * theory.membrane * G;
-    K.noalias() += B.transpose() * DB;
-    K.noalias() += p.dA * theory.drilling * relative.transpose() * relative;
-    K_ua.noalias() += DB.transpose() * G;
-    K_aa.noalias() += G.transpose() * DG;
+    const Eigen::Matrix<double, 3, 2> H = strain(p.grad_h), DH = p.dA * D * H;
+    Eigen::Matrix<double, 3, 4> G;
+    G << strain(scale * points.r[g] * points.centre.J_inv.col(0)),
+        strain(scale * points.s[g] * points.centre.J_inv.col(1));
+    const Eigen::Matrix<double, 3, 4> DG = p.dA * D * G;
+    HH.noalias() += H.transpose() * DH;
+    HG.noalias() += H.transpose() * DG;
+    GG.noalias() += G.transpose() * DG;
   }
-  K.noalias() -= K_ua * K_aa.llt().solve(K_ua.transpose());
+  const Mat2 S = HH - HG * GG.inverse() * HG.transpose();
+  const double area = 4.0 * points.centre.dA;
+  const Vec4 &b = points.centre.N_x, &c = points.centre.N_y;
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) {
+      const double gg = gamma[i] * gamma[j];
+      K(3 * i, 3 * j) += area * (D(0, 0) * b[i] * b[j] + D(2, 2) * c[i] * c[j]) + gg * S(0, 0);
+      K(3 * i + 1, 3 * j + 1) += area * (D(1, 1) * c[i] * c[j] + D(2, 2) * b[i] * b[j]) + gg * S(1, 1);
+      K(3 * i, 3 * j + 1) += area * (D(0, 1) * b[i] * c[j] + D(2, 2) * c[i] * b[j]) + gg * S(0, 1);
+      K(3 * i + 1, 3 * j) += area * (D(0, 1) * c[i] * b[j] + D(2, 2) * b[i] * c[j]) + gg * S(1, 0);
+    }
   return K;
 }
 
-/// Energy (3), added over (w θx θy).
-void add_hourglass(const ShellTheory& theory, const FlatQuad& flat, const Points& points, Mat12& K) {
-  const Vec4 gamma =
-      0.25 * (corner_h - corner_h.dot(flat.x) * points.centre.N_x - corner_h.dot(flat.y) * points.centre.N_y);
+/// Energy (2), added over (u v θz).
+void add_drilling(const ShellTheory& theory, const Points& points, Mat12& K) {
+  Column12 mean = Column12::Zero();
+  for (const Point& p : points.gauss) {
+    Column12 relative;  // θz − ½ (v,x − u,y)
+    for (int i = 0; i < 4; ++i) relative.segment<3>(3 * i) << 0.5 * p.N_y[i], -0.5 * p.N_x[i], p.N[i];
+    K.noalias() += (alpha * theory.in_plane_shear * p.dA * relative) * relative.transpose();
+    mean += p.dA * relative;
+  }
+  const double area = 4.0 * points.centre.dA;
+  K.noalias() += (theory.in_plane_shear / area * mean) * mean.transpose();
+}
+
+/// Energy (4), added over (w θx θy).
+void add_hourglass(const ShellTheory& theory, const Points& points, const Vec4& gamma, Mat12& K) {
   double xx = 0.0, yy = 0.0, xy = 0.0;  // ∫ ∇h ∇h'
-  for (std::size_t g = 0; g < 4; ++g) {
-    const Point& p = points.gauss[g];
-    const Eigen::Vector2d grad_h = p.J_inv * Eigen::Vector2d(points.s[g], points.r[g]);
-    xx += p.dA * grad_h.x() * grad_h.x();
-    yy += p.dA * grad_h.y() * grad_h.y();
-    xy += p.dA * grad_h.x() * grad_h.y();
+  for (const Point& p : points.gauss) {
+    xx += p.dA * p.grad_h.x() * p.grad_h.x();
+    yy += p.dA * p.grad_h.y() * p.grad_h.y();
+    xy += p.dA * p.grad_h.x() * p.grad_h.y();
   }
   const double area = 4.0 * points.centre.dA, D = theory.bending(0, 0);
   const double fade = theory.shear > 0.0 ? 1.0 / (1.0 + 12.0 * D / (theory.shear * area)) : 1.0;
@@ -181,7 +213,8 @@ void add_hourglass(const ShellTheory& theory, const FlatQuad& flat, const Points
 }
 
 /// Stiffness and mass over (w θx θy); `NN` is ∫ N_i N_j dA.
-void plate(const ShellTheory& theory, const FlatQuad& flat, const Points& points, const Mat4& NN, Mat12& K, Mat12& M) {
+void plate(const ShellTheory& theory, const FlatQuad& flat, const Points& points, const Vec4& gamma, const Mat4& NN,
+           Mat12& K, Mat12& M) {
   std::array<PlateEdge, 4> edge;
   for (int k = 0; k < 4; ++k) {
     const int j = (k + 1) % 4;
@@ -192,14 +225,14 @@ void plate(const ShellTheory& theory, const FlatQuad& flat, const Points& points
   for (std::size_t g = 0; g < 4; ++g) {
     const Point& p = points.gauss[g];
     const double r = points.r[g], s = points.s[g];
-    Eigen::Matrix<double, 3, 12> B = Eigen::Matrix<double, 3, 12>::Zero();        // curvature
-    Eigen::Matrix<double, 2, 12> natural = Eigen::Matrix<double, 2, 12>::Zero();  // γ_r, γ_s
-    Row12 w = Row12::Zero();                                                      // linked deflection
+    Eigen::Matrix<double, 12, 3> B = Eigen::Matrix<double, 12, 3>::Zero();        // columns: curvatures
+    Eigen::Matrix<double, 12, 2> natural = Eigen::Matrix<double, 12, 2>::Zero();  // γ_r, γ_s
+    Column12 w = Column12::Zero();                                                // linked deflection
     for (int i = 0; i < 4; ++i) {
-      B(0, 3 * i + 2) = p.N_x[i];
-      B(1, 3 * i + 1) = -p.N_y[i];
-      B(2, 3 * i + 1) = -p.N_x[i];
-      B(2, 3 * i + 2) = p.N_y[i];
+      B(3 * i + 2, 0) = p.N_x[i];
+      B(3 * i + 1, 1) = -p.N_y[i];
+      B(3 * i + 1, 2) = -p.N_x[i];
+      B(3 * i + 2, 2) = p.N_y[i];
       w[3 * i] = p.N[i];
     }
     // edge bubbles P = 4ξ(1−ξ) across the element, and the MITC4 weights of the edges' shears, ½(1 ± s)/2
@@ -216,16 +249,16 @@ void plate(const ShellTheory& theory, const FlatQuad& flat, const Points& points
       const double P_y = p.J_inv(1, 0) * P_r[k] + p.J_inv(1, 1) * P_s[k];
       const Vec3 kappa(P_x * e.c_dbeta, P_y * e.s_dbeta, P_y * e.c_dbeta + P_x * e.s_dbeta);
       add_g(B, kappa, e, i, j);
-      add_g(natural.row(i % 2), Eigen::Matrix<double, 1, 1>(tie[k] * e.shear), e, i, j);
+      add_g(natural.col(i % 2), Eigen::Matrix<double, 1, 1>(tie[k] * e.shear), e, i, j);
       add_link(w, P[k], e, i, j);
     }
-    const Eigen::Matrix<double, 2, 12> gamma = p.J_inv * natural;
-    const Eigen::Matrix<double, 3, 12> DB = p.dA * theory.bending * B;
-    K.noalias() += B.transpose() * DB;
-    K.noalias() += p.dA * theory.shear * gamma.transpose() * gamma;
-    M.noalias() += p.dA * theory.mass * w.transpose() * w;
+    const Eigen::Matrix<double, 12, 3> BD = B.lazyProduct(p.dA * theory.bending);
+    const Eigen::Matrix<double, 12, 2> shear = natural.lazyProduct(p.J_inv.transpose());
+    K.noalias() += BD.lazyProduct(B.transpose());
+    K.noalias() += Eigen::Matrix<double, 12, 2>(p.dA * theory.shear * shear).lazyProduct(shear.transpose());
+    M.noalias() += (p.dA * theory.mass * w) * w.transpose();
   }
-  add_hourglass(theory, flat, points, K);
+  add_hourglass(theory, points, gamma, K);
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 4; ++j)
       for (int a = 1; a < 3; ++a) M(3 * i + a, 3 * j + a) += theory.rotary * NN(i, j);
@@ -241,9 +274,12 @@ void quad4_matrices(const Quad4& quad, const ShellSection& section, const Materi
 
   Mat4 NN = Mat4::Zero();
   for (const Point& p : gauss.gauss) NN.noalias() += p.dA * p.N * p.N.transpose();
-  const Mat12 K_membrane = membrane_stiffness(theory, gauss);
+  const Point& centre = gauss.centre;
+  const Vec4 gamma = 0.25 * (corner_h - corner_h.dot(flat.x) * centre.N_x - corner_h.dot(flat.y) * centre.N_y);  // (1)
+  Mat12 K_membrane = membrane_stiffness(theory, gauss, gamma);
+  add_drilling(theory, gauss, K_membrane);
   Mat12 K_plate, M_plate;
-  plate(theory, flat, gauss, NN, K_plate, M_plate);
+  plate(theory, flat, gauss, gamma, NN, K_plate, M_plate);
 
   shell_to_basic_frame<4>(K_membrane, K_plate, flat.R, flat.arms, out.K);
   Mat12 M_membrane = Mat12::Zero();

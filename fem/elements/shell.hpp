@@ -9,7 +9,7 @@ namespace tenon::fem {
 
 /// Stiffness and mass of a flat four-node shell, 24×24; a warped one lies in its mean plane, its nodes joined to the
 /// corners by rigid arms. Membrane with incompatible modes, MITC4 shear with edge rotations (exact thin limit),
-/// weak drilling stiffness relative to the membrane's rotation, no drilling mass. Theory: shell_theory.hpp.
+/// drilling stiffness relative to the membrane's rotation, no drilling mass. Theory: shell_theory.hpp, quad4.cpp.
 /// @param nodes  positions of all nodes of the model [m]
 /// @throws ModelError naming the element: zero area, folded or crossed corners, thickness, E or G ≤ 0, ν outside
 ///         (−1, 1/2], negative ratios or mass.

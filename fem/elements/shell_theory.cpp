@@ -26,11 +26,10 @@ ShellTheory shell_theory(const ShellSection& section, const Material& m, std::st
   Mat3 C;
   C << plane, m.nu * plane, 0.0, m.nu * plane, plane, 0.0, 0.0, 0.0, m.G;
   const double t3_12 = t * t * t / 12.0;
-  constexpr double alpha = 1e-3;  // see quad4.cpp
   return {.membrane = t * C,
           .bending = section.bending_ratio * t3_12 * C,
           .shear = section.shear_ratio * m.G * t,
-          .drilling = alpha * m.G * t,
+          .in_plane_shear = m.G * t,
           .nu = m.nu,
           .mass = m.rho * t + section.nsm,
           .rotary = m.rho * t3_12};

@@ -28,10 +28,10 @@ namespace tenon::fem {
 
 /// The shell's section stiffnesses and masses per unit area.
 struct ShellTheory {
-  Mat3 membrane;    ///< t C, C plane stress [N/m]
-  Mat3 bending;     ///< (12I/t³) t³/12 C [N m]
-  double shear;     ///< κ G t [N/m]; 0 stands for rigid in shear
-  double drilling;  ///< α G t, of θz relative to the membrane's rotation [N/m]
+  Mat3 membrane;          ///< t C, C plane stress [N/m]
+  Mat3 bending;           ///< (12I/t³) t³/12 C [N m]
+  double shear;           ///< κ G t [N/m]; 0 stands for rigid in shear
+  double in_plane_shear;  ///< G t [N/m]
   double nu;
   double mass;    ///< ρ t + nsm [kg/m²]
   double rotary;  ///< ρ t³/12 [kg]
@@ -50,28 +50,28 @@ struct PlateEdge {
 
 PlateEdge plate_edge(const ShellTheory& theory, double dx, double dy);
 
-/// rows += factors g, g of the edge from i to j over the dofs (w θx θy).
-template <typename Rows, typename Factors>
-void add_g(Rows&& rows, const Factors& factors, const PlateEdge& e, int i, int j) {
+/// Columns += g' factors, g of the edge from i to j over the dofs (w θx θy).
+template <typename Columns, typename Factors>
+void add_g(Columns&& columns, const Factors& factors, const PlateEdge& e, int i, int j) {
   for (int a = 0; a < factors.size(); ++a) {
     const double f = factors[a], f_x = 0.5 * f * e.dx, f_y = 0.5 * f * e.dy;
-    rows(a, 3 * i) -= f;
-    rows(a, 3 * i + 1) -= f_y;
-    rows(a, 3 * i + 2) += f_x;
-    rows(a, 3 * j) += f;
-    rows(a, 3 * j + 1) -= f_y;
-    rows(a, 3 * j + 2) += f_x;
+    columns(3 * i, a) -= f;
+    columns(3 * i + 1, a) -= f_y;
+    columns(3 * i + 2, a) += f_x;
+    columns(3 * j, a) += f;
+    columns(3 * j + 1, a) -= f_y;
+    columns(3 * j + 2, a) += f_x;
   }
 }
 
-/// row += P (l/8)(β_tj − β_ti), the linked deflection of the edge from i to j.
-template <typename Row>
-void add_link(Row& row, double P, const PlateEdge& e, int i, int j) {
+/// w += P (l/8)(β_tj − β_ti), the linked deflection of the edge from i to j.
+template <typename Column>
+void add_link(Column& w, double P, const PlateEdge& e, int i, int j) {
   const double f_x = 0.125 * P * e.dx, f_y = 0.125 * P * e.dy;
-  row[3 * i + 1] += f_y;
-  row[3 * i + 2] -= f_x;
-  row[3 * j + 1] -= f_y;
-  row[3 * j + 2] += f_x;
+  w[3 * i + 1] += f_y;
+  w[3 * i + 2] -= f_x;
+  w[3 * j + 1] -= f_y;
+  w[3 * j + 2] += f_x;
 }
 
 /// Joins a membrane matrix over (u v θz) and a plate matrix over (w θx θy) and carries them to the basic frame.
@@ -82,7 +82,7 @@ void shell_to_basic_frame(const Eigen::Matrix<double, 3 * N, 3 * N>& membrane,
   static constexpr std::array<int, 3> in_plane{0, 1, 5}, across{2, 3, 4};
   Eigen::Matrix<double, 6 * N, 6 * N> local = Eigen::Matrix<double, 6 * N, 6 * N>::Zero();
   for (int j = 0; j < N; ++j)
-    for (int i = 0; i <= j; ++i)
+    for (int i = 0; i < N; ++i)
       for (int b = 0; b < 3; ++b)
         for (int a = 0; a < 3; ++a) {
           const auto ka = static_cast<std::size_t>(a), kb = static_cast<std::size_t>(b);

@@ -18,7 +18,7 @@ namespace tenon::fem {
 namespace {
 
 using Mat9 = Eigen::Matrix<double, 9, 9>;
-using Row9 = Eigen::Matrix<double, 1, 9>;
+using Column9 = Eigen::Matrix<double, 9, 1>;
 
 /// The triangle in its plane, x along its first edge.
 struct FlatTria {
@@ -72,7 +72,8 @@ Mat9 membrane_stiffness(const ShellTheory& theory, const FlatTria& f) {
     natural.row(i) /= l2[i];
   }
   L *= 0.5;
-  Mat9 K = L * (theory.membrane / f.A) * L.transpose();
+  const Eigen::Matrix<double, 9, 3> LC = L.lazyProduct(theory.membrane / f.A);
+  Mat9 K = LC.lazyProduct(L.transpose());
 
   // natural strains at the corners per hierarchical rotation, β = (1, 2, 1, 0, 1, −1, −1, −1, −2)
   Mat3 Q1, Q2, Q3;
@@ -87,7 +88,8 @@ Mat9 membrane_stiffness(const ShellTheory& theory, const FlatTria& f) {
     const Mat3 SQ = scale.asDiagonal() * Q;
     K_theta.noalias() += SQ.transpose() * C * SQ;
   }
-  K.noalias() += T.transpose() * (0.75 * beta_0 * f.A * K_theta) * T;
+  const Eigen::Matrix<double, 9, 3> TK = T.transpose().lazyProduct(0.75 * beta_0 * f.A * K_theta);
+  K.noalias() += TK.lazyProduct(T);
   return K;
 }
 
@@ -107,14 +109,14 @@ void plate(const ShellTheory& theory, const FlatTria& f, Mat9& K, Mat9& M) {
   for (int g = 0; g < 3; ++g) {
     Vec3 N = Vec3::Constant(1.0 / 6.0);
     N[g] = 2.0 / 3.0;
-    Eigen::Matrix<double, 3, 9> B = Eigen::Matrix<double, 3, 9>::Zero();      // curvature
-    Eigen::Matrix<double, 2, 9> gamma = Eigen::Matrix<double, 2, 9>::Zero();  // shear
-    Row9 w = Row9::Zero();                                                    // linked deflection
+    Eigen::Matrix<double, 9, 3> B = Eigen::Matrix<double, 9, 3>::Zero();      // columns: curvatures
+    Eigen::Matrix<double, 9, 2> gamma = Eigen::Matrix<double, 9, 2>::Zero();  // columns: shears
+    Column9 w = Column9::Zero();                                              // linked deflection
     for (int i = 0; i < 3; ++i) {
-      B(0, 3 * i + 2) = N_x[i];
-      B(1, 3 * i + 1) = -N_y[i];
-      B(2, 3 * i + 1) = -N_x[i];
-      B(2, 3 * i + 2) = N_y[i];
+      B(3 * i + 2, 0) = N_x[i];
+      B(3 * i + 1, 1) = -N_y[i];
+      B(3 * i + 1, 2) = -N_x[i];
+      B(3 * i + 2, 2) = N_y[i];
       w[3 * i] = N[i];
       for (int j = 0; j < 3; ++j)
         for (int a = 1; a < 3; ++a) M(3 * i + a, 3 * j + a) += dA * theory.rotary * N[i] * N[j];
@@ -130,10 +132,10 @@ void plate(const ShellTheory& theory, const FlatTria& f, Mat9& K, Mat9& M) {
       add_g(gamma, Eigen::Vector2d(e.shear * whitney), e, i, j);
       add_link(w, 4.0 * N[i] * N[j], e, i, j);
     }
-    const Eigen::Matrix<double, 3, 9> DB = dA * theory.bending * B;
-    K.noalias() += B.transpose() * DB;
-    K.noalias() += dA * theory.shear * gamma.transpose() * gamma;
-    M.noalias() += dA * theory.mass * w.transpose() * w;
+    const Eigen::Matrix<double, 9, 3> BD = B.lazyProduct(dA * theory.bending);
+    K.noalias() += BD.lazyProduct(B.transpose());
+    K.noalias() += Eigen::Matrix<double, 9, 2>(dA * theory.shear * gamma).lazyProduct(gamma.transpose());
+    M.noalias() += (dA * theory.mass * w) * w.transpose();
   }
 }
 
