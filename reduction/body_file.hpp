@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "reduction/reduced_body.hpp"
 
@@ -15,5 +16,8 @@ void write_body(const std::filesystem::path& path, const ReducedBody& body);
 
 /// Reads a body; throws InputError for a wrong version, inconsistent sizes or anything malformed.
 ReducedBody read_body(const std::filesystem::path& path);
+
+/// "fnv1a64:" and the 64-bit FNV-1a hash of the file's bytes in 16 hex digits: the provenance a certificate carries.
+std::string file_hash(const std::filesystem::path& path);
 
 }  // namespace tenon::reduction

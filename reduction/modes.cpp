@@ -252,6 +252,9 @@ Modes solve_modes(const fem::SparseMatrix& K, const fem::SparseMatrix& M, const 
   if (sigma && r + static_cast<int>((f.lambda.array() < *sigma).count()) != returned)
     report_mismatch(r + static_cast<int>((f.lambda.array() < *sigma).count()), returned, *sigma);
 
+  // L⁻¹ magnifies rounding along the softest motions: take what is left of the rigid ones out, X ← (1 − RRᵀM) X
+  if (r > 0) f.X -= rigid * transposed_product(rigid, symmetric_product(M, f.X));
+
   p.progress(0.9, "checks");
   const int zero = settle_low_modes(p, f);
   const auto flexible = static_cast<int>(f.lambda.size());

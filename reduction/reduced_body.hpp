@@ -17,9 +17,9 @@ using fem::Vec3;
 /// paper.
 struct BodyPort {
   std::string name;
-  Vec3 position = Vec3::Zero();  ///< in the body frame [m]
-  Mat3 axes = Mat3::Identity();  ///< columns: the port's axes in the body frame
-  Mat6X Phi;                     ///< 6×n modal shapes at the port; zero at the parent port of a cantilever body
+  Vec3 position = Vec3::Zero();   ///< in the body frame [m]
+  Mat3 axes = Mat3::Identity();   ///< columns: the port's axes in the body frame
+  Mat6X Phi = Mat6X::Zero(6, 0);  ///< 6×n modal shapes at the port; zero at the parent port of a cantilever body
 };
 
 /// How a body was made, what was counted, what was left out, where it is valid.
@@ -28,12 +28,12 @@ struct Certificate {
   std::string source;       ///< file name
   std::string source_hash;  ///< "fnv1a64:..." of the source file's bytes; empty for analytic bodies
   int nodes = 0, elements = 0, dofs = 0;
-  int modes_found = 0;                ///< eigenpairs of the fixed-interface (or clamped) problem that were kept
-  int modes_counted = -1;             ///< by inertia count below `count_shift`; −1 not counted
-  double count_shift = 0.0;           ///< σ of the count [rad²/s²]
-  double max_residual = 0.0;          ///< of the kept eigenpairs, relative
-  double max_orthogonality = 0.0;     ///< |ΦᵀMΦ − 1|
-  double valid_below = 0.0;           ///< [rad/s] the first frequency that is *not* represented; 0 unknown
+  int modes_found = 0;             ///< eigenpairs of the fixed-interface (or clamped) problem that were kept
+  int modes_counted = -1;          ///< by inertia count below `count_shift`; −1 not counted
+  double count_shift = 0.0;        ///< σ of the count [rad²/s²]
+  double max_residual = 0.0;       ///< of the kept eigenpairs, relative
+  double max_orthogonality = 0.0;  ///< |ΦᵀMΦ − 1|
+  double valid_below = 0.0;  ///< [rad/s] the first frequency that is *not* represented; 0: none is missing, or unknown
   std::vector<std::string> left_out;  ///< sentences: what was dropped or regularised, and how much it weighs
 };
 
@@ -77,7 +77,8 @@ ReducedBody rigid_body(std::string name, double mass, const Vec3& centre, const 
 /// ModelError.
 void check(const ReducedBody& body);
 
-/// The same body hung by another of its ports: exact in the reduced space (congruence and a small eigen-solve).
+/// The same body hung by another of its ports: exact in the reduced space (congruence and a small eigen-solve), but for
+/// unequal damping ratios, of which the new modes keep VᵀCV's diagonal.
 ReducedBody rebase(const ReducedBody& body, int port);
 
 /// Effective mass per direction Σ_j L_jd² as a table: n×6, and the remainder diag(D) − Σ_j L_jd² (6).

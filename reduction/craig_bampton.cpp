@@ -1,0 +1,83 @@
+#include "reduction/craig_bampton.hpp"
+
+#include <fmt/format.h>
+
+#include "fem/error.hpp"
+#include "reduction/dense.hpp"
+#include "reduction/shift.hpp"
+#include "reduction/sparse.hpp"
+
+namespace tenon::reduction {
+
+namespace {
+
+// K_ii of a body held at its ports must be positive definite; a singular one has a mechanism inside
+ShiftedFactor factor_interior(const fem::Structure& structure, const Partition& parts, fem::SparseMatrix K_ii) {
+  Factor factor(K_ii);
+  int row = factor.try_factorize(K_ii);
+  if (row < 0) row = free_row(K_ii, factor);
+  if (row >= 0) {
+    const auto dof = static_cast<std::size_t>(parts.interior[static_cast<std::size_t>(row)]);
+    throw ModelError(
+        fmt::format("{} can move without strain while all ports are held",
+                    dof < structure.dofs.names.size() ? structure.dofs.names[dof] : fmt::format("row {}", dof)),
+        "Look there for a hinge, a node without rotational stiffness or a part that hangs by a thread");
+  }
+  return {0.0, std::move(K_ii), std::move(factor)};
+}
+
+// the rows `rows` and columns `columns` of a symmetric matrix, dense
+Eigen::MatrixXd dense_block(const fem::SparseMatrix& A, const std::vector<int>& rows, const std::vector<int>& columns) {
+  std::vector<int> row_place(static_cast<std::size_t>(A.rows()), -1), column_place(row_place);
+  for (std::size_t k = 0; k < rows.size(); ++k) row_place[static_cast<std::size_t>(rows[k])] = static_cast<int>(k);
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    column_place[static_cast<std::size_t>(columns[k])] = static_cast<int>(k);
+  Eigen::MatrixXd B =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(columns.size()));
+  const auto put = [&](Eigen::Index i, Eigen::Index j, double value) {
+    const int r = row_place[static_cast<std::size_t>(i)], c = column_place[static_cast<std::size_t>(j)];
+    if (r >= 0 && c >= 0) B(r, c) = value;
+  };
+  for (int j = 0; j < A.outerSize(); ++j)
+    for (fem::SparseMatrix::InnerIterator it(A, j); it; ++it) {
+      put(it.row(), j, it.value());
+      put(j, it.row(), it.value());
+    }
+  return B;
+}
+
+}  // namespace
+
+Subspace component_modes(const fem::Structure& structure, const Partition& parts, const ModesOptions& options) {
+  const auto children = static_cast<Eigen::Index>(parts.children.size());
+  const auto interior = static_cast<Eigen::Index>(parts.interior.size());
+  Subspace space;
+  Eigen::MatrixXd Psi(interior, children);
+  Eigen::MatrixXd K_CC = dense_block(structure.K, parts.children, parts.children);
+  if (interior > 0) {
+    const fem::SparseMatrix M_ii = principal(structure.M, parts.interior);
+    const ShiftedFactor factored = factor_interior(structure, parts, principal(structure.K, parts.interior));
+    if (children > 0) {
+      const Eigen::MatrixXd K_iC = dense_block(structure.K, parts.interior, parts.children);
+      Psi = -factored.factor.solve(K_iC);     // Ψ = −K_ii⁻¹ K_iC
+      K_CC += transposed_product(K_iC, Psi);  // K_CC − K_Ci K_ii⁻¹ K_iC
+      K_CC = 0.5 * (K_CC + K_CC.transpose()).eval();
+    }
+    if (options.count > 0 || options.band)
+      space.modes = solve_modes(factored.A, M_ii, factored, Eigen::MatrixXd(interior, 0), options);
+  }
+  const Eigen::Index kept = space.modes.lambda.size();
+  space.T = Eigen::MatrixXd::Zero(structure.n(), children + kept);
+  for (Eigen::Index c = 0; c < children; ++c) space.T(parts.children[static_cast<std::size_t>(c)], c) = 1.0;
+  for (Eigen::Index i = 0; i < interior; ++i) {
+    const int row = parts.interior[static_cast<std::size_t>(i)];
+    space.T.row(row).head(children) = Psi.row(i);
+    if (kept > 0) space.T.row(row).tail(kept) = space.modes.shapes.row(i);
+  }
+  space.K_zz = Eigen::MatrixXd::Zero(children + kept, children + kept);
+  space.K_zz.topLeftCorner(children, children) = K_CC;
+  space.K_zz.diagonal().tail(kept) = space.modes.lambda;
+  return space;
+}
+
+}  // namespace tenon::reduction

@@ -1,0 +1,119 @@
+#include "reduction/reduce.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "fem/error.hpp"
+#include "reduction/craig_bampton.hpp"
+#include "reduction/dense.hpp"
+#include "reduction/eq1.hpp"
+#include "reduction/partition.hpp"
+#include "reduction/sparse.hpp"
+
+namespace tenon::reduction {
+
+namespace {
+
+constexpr std::array<const char*, 6> directions{"ux", "uy", "uz", "rx", "ry", "rz"};
+
+// rows of T V at a port, zero where its node has no such dof
+Mat6X port_shapes(const std::array<int, 6>& rows, const Eigen::MatrixXd& TV) {
+  Mat6X Phi = Mat6X::Zero(6, TV.cols());
+  for (int d = 0; d < 6; ++d)
+    if (const int row = rows[static_cast<std::size_t>(d)]; row >= 0) Phi.row(d) = TV.row(row);
+  return Phi;
+}
+
+std::vector<std::string> sentences(const fem::Structure& structure, const Partition& parts, const Subspace& space,
+                                   const ModalForm& modal) {
+  std::vector<std::string> said;
+  const double next = std::sqrt(std::max(space.modes.next_lambda, 0.0));
+  if (next > 0.0)
+    said.push_back(fmt::format("{} modes from {:.6g} Hz on", parts.children.empty() ? "clamped" : "fixed-interface",
+                               next / (2.0 * std::numbers::pi)));
+  if (modal.massless > 0)
+    said.push_back(
+        fmt::format("inertia of {} massless static shape(s), carried as modes at {:.6g} Hz ({:g} times the "
+                    "highest other one): static flexibility exact, dynamic error below (f/{:.3g} Hz)²",
+                    modal.massless, modal.omega[modal.omega.size() - 1] / (2.0 * std::numbers::pi), massless_frequency,
+                    modal.omega[modal.omega.size() - 1] / (2.0 * std::numbers::pi)));
+  for (std::size_t k = 0; k < parts.ports.size(); ++k) {
+    std::string missing;
+    for (std::size_t d = 0; d < 6; ++d)
+      if (parts.ports[k][d] < 0) missing += std::string(missing.empty() ? "" : " ") + directions[d];
+    if (!missing.empty())
+      said.push_back(fmt::format("port '{}' has no stiffness or mass in {}: there it follows the reference rigidly",
+                                 structure.ports[k].name, missing));
+  }
+  return said;
+}
+
+}  // namespace
+
+ReducedBody reduce(const fem::Structure& structure, const std::string& parent, const ReduceOptions& options) {
+  const auto progress = [&](double fraction, const char* step) {
+    if (options.progress) options.progress(fraction, step);
+  };
+  progress(0.0, "checks");
+  const bool clamped = options.basis == Basis::clamped_free;
+  const Partition parts = partition(structure, parent, clamped);
+  require_stiffness_path(structure, parts);
+  const fem::Port& hung = structure.ports[static_cast<std::size_t>(parts.parent)];
+  const Vec3 reference = structure.nodes[static_cast<std::size_t>(hung.node)];
+  const Eigen::MatrixXd R = fem::rigid_motions(structure, reference);
+  require_free_body(structure, R);
+
+  progress(0.1, "component modes");
+  const int count = options.all_modes ? static_cast<int>(parts.interior.size()) : options.modes;
+  const std::optional<double> band = options.all_modes ? std::nullopt : options.band;
+  const Subspace space =
+      component_modes(structure, parts, {.count = count, .band = band, .progress = options.progress});
+
+  progress(0.9, "eq (1)");
+  // u = R x_P + T z: M_zz = TᵀMT, M_zP = TᵀMR, D = RᵀMR; K R = 0 leaves K_zz = TᵀKT alone
+  const Eigen::MatrixXd MR = symmetric_product(structure.M, R);
+  const Eigen::MatrixXd MT = symmetric_product(structure.M, space.T);
+  RelativeForm relative{space.K_zz, transposed_product(space.T, MT), transposed_product(space.T, MR)};
+  relative.M_zz = 0.5 * (relative.M_zz + relative.M_zz.transpose()).eval();
+  const ModalForm modal = modal_form(relative);
+  const Eigen::MatrixXd TV = product(space.T, modal.V);
+
+  ReducedBody body;
+  body.reference = reference;
+  body.parent = parts.parent;
+  body.omega = modal.omega;
+  body.zeta = Eigen::VectorXd::Constant(modal.omega.size(), options.zeta);
+  body.L = modal.L;
+  const Eigen::MatrixXd D = transposed_product(R, MR);
+  body.D = 0.5 * (D + D.transpose());
+  for (std::size_t k = 0; k < structure.ports.size(); ++k) {
+    const fem::Port& port = structure.ports[k];
+    body.ports.push_back(
+        {port.name, structure.nodes[static_cast<std::size_t>(port.node)], port.axes, port_shapes(parts.ports[k], TV)});
+  }
+  if (options.keep_shapes) {
+    body.node_positions = structure.nodes;
+    body.node_shapes = structure.dofs.expand(TV);
+  }
+  Certificate& c = body.certificate;
+  const auto kept = static_cast<int>(space.modes.lambda.size());
+  c.basis = clamped ? fmt::format("clamped-free, {} modes clamped at '{}'", kept, parent)
+                    : fmt::format("craig-bampton, {} fixed-interface modes and {} constraint modes", kept,
+                                  parts.children.size());
+  c.nodes = static_cast<int>(structure.nodes.size());
+  c.dofs = structure.n();
+  c.modes_found = space.modes.found;
+  c.modes_counted = space.modes.counted;
+  c.count_shift = space.modes.count_shift;
+  c.max_residual = space.modes.max_residual;
+  c.max_orthogonality = space.modes.max_orthogonality;
+  c.valid_below = std::sqrt(std::max(space.modes.next_lambda, 0.0));
+  c.left_out = sentences(structure, parts, space, modal);
+  check(body);
+  progress(1.0, "reduced");
+  return body;
+}
+
+}  // namespace tenon::reduction
