@@ -1,11 +1,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <numbers>
 
 #include "assembly/build.hpp"
-#include "temporary_scene.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace tenon::assembly {
 namespace {

@@ -1,13 +1,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
+#include <fstream>
 #include <numbers>
+#include <regex>
 
 #include "assembly/plan.hpp"
 #include "assembly/scene.hpp"
-#include "temporary_scene.hpp"
+#include "assembly/scene/schema.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace tenon::assembly {
 namespace {
@@ -198,6 +200,24 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"same_name", "  drive:", "  hub:", "hub: {parent", "names a body and a joint", "Rename"},
         Fault{"dotted_name", "  antenna:", "  anten.na:", "anten.na", "is no name", "without dots"}),
     [](const auto& info) { return std::string(info.param.name); });
+
+void collect_keys(const Schema& schema, std::vector<std::string>& names) {
+  for (const Key& key : schema.keys) {
+    names.emplace_back(key.name);
+    if (key.inside) collect_keys(*key.inside, names);
+  }
+  if (schema.each && schema.each->inside) collect_keys(*schema.each->inside, names);
+}
+
+TEST(Scene, TheGuideNamesEveryKeyOfTheGrammar) {
+  std::ifstream stream(std::string(TENON_SOURCE_DIR) + "/docs/scene.md");
+  const std::string guide{std::istreambuf_iterator<char>(stream), {}};
+  std::vector<std::string> names;
+  collect_keys(scene_schema(), names);
+  ASSERT_GT(names.size(), 50u);
+  for (const std::string& name : names)
+    EXPECT_TRUE(std::regex_search(guide, std::regex("\\b" + name + "\\b"))) << "docs/scene.md does not name " << name;
+}
 
 TEST(Scene, SaysWhereTheYamlBreaks) {
   const TemporaryFolder folder;

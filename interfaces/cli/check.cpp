@@ -1,0 +1,214 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+
+#include "assembly/build.hpp"
+#include "assembly/second_order.hpp"
+#include "fem/structure.hpp"
+#include "interfaces/cli/commands.hpp"
+#include "interfaces/cli/input.hpp"
+#include "interfaces/cli/output.hpp"
+
+namespace tenon::cli {
+namespace {
+
+struct Options {
+  std::filesystem::path scene;
+  bool json = false;
+};
+
+/// One thing that was looked at.
+struct Finding {
+  std::string subject, what;
+  bool good = true;
+};
+
+/// Mass by two routes may differ by the curvature that flat cells cut off, never by more than round-off here.
+constexpr double mass_limit = 1e-9;
+/// ‖K R‖ relative to ‖K‖ ‖R‖: rigid motions must cost no energy.
+constexpr double rigid_limit = 1e-9;
+
+struct BodyCheck {
+  std::string name, kind;
+  int nodes = 0, elements = 0, dofs = 0;
+  fem::MassProperties mass;
+  std::vector<std::string> losses;
+};
+
+double relative_rigid_force(const fem::Structure& structure) {
+  const Eigen::MatrixXd R = fem::rigid_motions(structure, structure.nodes.front());
+  const Eigen::MatrixXd F = structure.K.selfadjointView<Eigen::Lower>() * R;
+  double worst = 0.0;
+  const double scale = structure.K.norm();
+  for (Eigen::Index j = 0; j < R.cols(); ++j)
+    if (const double r = R.col(j).norm(); r > 0.0 && scale > 0.0)
+      worst = std::max(worst, F.col(j).norm() / (scale * r));
+  return worst;
+}
+
+BodyCheck check_fe(const assembly::SceneBody& body, std::vector<Finding>& findings) {
+  const fem::Model model = assembly::build_model(body);
+  const fem::Structure structure = fem::assemble(model);
+  BodyCheck check{.name = body.name,
+                  .kind = "fe",
+                  .nodes = static_cast<int>(model.nodes.size()),
+                  .elements = static_cast<int>(model.elements.size()),
+                  .dofs = structure.n(),
+                  .mass = fem::mass_properties(structure),
+                  .losses = loss_lines(model.losses)};
+  if (!model.supports.empty()) {
+    findings.push_back(
+        {body.name, fmt::format("{} dofs are held to the inertial frame by `fix`", model.supports.size())});
+    return check;
+  }
+  const fem::MassProperties geometry = fem::geometric_mass_properties(model);
+  const double gap = std::abs(check.mass.mass - geometry.mass) / std::max(geometry.mass, 1e-300);
+  findings.push_back({body.name, fmt::format("mass of M against geometry: {:.1e} apart", gap), gap <= mass_limit});
+  const double force = relative_rigid_force(structure);
+  findings.push_back({body.name, fmt::format("six rigid motions cost no energy: |K R| / |K| |R| = {:.1e}", force),
+                      force <= rigid_limit});
+  if (!structure.dofs.unused.empty())
+    findings.push_back(
+        {body.name, fmt::format("{} dofs without stiffness and mass were dropped", structure.dofs.unused.size())});
+  if (structure.dofs.redundant_constraints > 0)
+    findings.push_back(
+        {body.name, fmt::format("{} constraints say nothing new", structure.dofs.redundant_constraints)});
+  return check;
+}
+
+/// The scene with every body taken as rigid: joints, grounding and mass, without an eigen-solve.
+assembly::Network rigid_network(const assembly::Scene& scene, const assembly::Plan& plan) {
+  std::vector<reduction::ReducedBody> bodies;
+  for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
+    assembly::BodyPlan rigid = plan.bodies[k];
+    rigid.rigid = true;
+    bodies.push_back(assembly::build_body(scene.bodies[k], rigid));
+  }
+  return assembly::connect(scene, std::move(bodies));
+}
+
+BodyCheck check_reduced(const reduction::ReducedBody& body, const char* kind) {
+  BodyCheck check{.name = body.name, .kind = kind, .mass = {}, .losses = {}};
+  check.mass.mass = body.D(0, 0);
+  if (body.D(0, 0) > 0.0) {  // D = [m, −m c̃; m c̃, J]
+    const fem::Mat3 s = body.D.bottomLeftCorner<3, 3>() / body.D(0, 0);
+    check.mass.centre = body.reference + fem::Vec3(s(2, 1), s(0, 2), s(1, 0));
+  }
+  return check;
+}
+
+struct Report {
+  assembly::Plan plan;
+  std::vector<BodyCheck> bodies;
+  std::vector<Finding> findings;
+  int rigid_motions = 0, loops = 0;
+};
+
+Report examine(const assembly::Scene& scene) {
+  Report report{.plan = assembly::plan(scene), .bodies = {}, .findings = {}};
+  bool joinable = true;
+  for (const assembly::SceneBody& body : scene.bodies)
+    if (std::holds_alternative<assembly::FeSource>(body.source)) {
+      report.bodies.push_back(check_fe(body, report.findings));
+      joinable = joinable && !body.ports.empty();
+    } else {
+      report.bodies.push_back({.name = body.name, .kind = "", .mass = {}, .losses = {}});
+    }
+  if (!joinable && scene.bodies.size() == 1) {
+    report.findings.push_back({scene.bodies.front().name, "has no port: it can be solved alone, not joined"});
+    return report;
+  }
+  const assembly::Network network = rigid_network(scene, report.plan);
+  for (std::size_t k = 0; k < scene.bodies.size(); ++k)
+    if (!std::holds_alternative<assembly::FeSource>(scene.bodies[k].source))
+      report.bodies[k] =
+          check_reduced(network.bodies[k],
+                        std::holds_alternative<assembly::RigidSource>(scene.bodies[k].source) ? "rigid" : "reduced");
+  const assembly::SecondOrderSystem system = assembly::second_order(network);
+  report.rigid_motions = assembly::modes(system).rigid;
+  report.loops = static_cast<int>(system.placement.closing_joints.size());
+  const auto roots = std::count(system.placement.tree_joint.begin(), system.placement.tree_joint.end(), -1);
+  report.findings.push_back(
+      {"scene", fmt::format("{} rigid motion{}", report.rigid_motions, report.rigid_motions == 1 ? "" : "s")});
+  if (roots > 1 && scene.ground.empty())
+    report.findings.push_back({"scene", fmt::format("falls into {} parts that no joint connects", roots), false});
+  if (report.loops > 0)
+    report.findings.push_back({"scene", fmt::format("{} joint{} close{} loops", report.loops,
+                                                    report.loops == 1 ? "" : "s", report.loops == 1 ? "s" : "")});
+  return report;
+}
+
+bool good(const Report& report) {
+  return std::all_of(report.findings.begin(), report.findings.end(), [](const Finding& f) { return f.good; });
+}
+
+Json to_json(const assembly::Scene& scene, const Report& report) {
+  Json object{{"source", scene.file.string()}, {"units", scene.units.name}, {"bodies", Json::array()}};
+  for (std::size_t k = 0; k < report.bodies.size(); ++k) {
+    const BodyCheck& body = report.bodies[k];
+    const assembly::BodyPlan& plan = report.plan.bodies[k];
+    object["bodies"].push_back({{"name", body.name},
+                                {"kind", body.kind},
+                                {"mass_kg", body.mass.mass},
+                                {"centre_m", {body.mass.centre.x(), body.mass.centre.y(), body.mass.centre.z()}},
+                                {"nodes", body.nodes},
+                                {"elements", body.elements},
+                                {"dofs", body.dofs},
+                                {"read_past", body.losses},
+                                {"plan", {{"kept", plan.kept}, {"dropped", plan.dropped}, {"why", plan.why}}}});
+  }
+  object["rigid_motions"] = report.rigid_motions;
+  object["loops"] = report.loops;
+  object["notes"] = report.plan.notes;
+  object["checks"] = Json::array();
+  for (const Finding& finding : report.findings)
+    object["checks"].push_back({{"subject", finding.subject}, {"what", finding.what}, {"good", finding.good}});
+  object["good"] = good(report);
+  return object;
+}
+
+void print_people(const assembly::Scene& scene, const Report& report) {
+  print(fmt::format("{}: units {}, {} bodies, {} joints", scene.file.string(), scene.units.name, scene.bodies.size(),
+                    scene.joints.size()));
+  Table bodies({"<body", "<kind", "mass [kg]", "centre in body frame [m]", "nodes", "elements", "dofs"});
+  for (const BodyCheck& body : report.bodies)
+    bodies.row(
+        {body.name, body.kind, fmt::format("{:.6g}", body.mass.mass),
+         fmt::format("({:.4g}, {:.4g}, {:.4g})", body.mass.centre.x(), body.mass.centre.y(), body.mass.centre.z()),
+         body.nodes ? std::to_string(body.nodes) : "", body.elements ? std::to_string(body.elements) : "",
+         body.dofs ? std::to_string(body.dofs) : ""});
+  print(bodies);
+  print("\n  Plan");
+  for (const assembly::BodyPlan& plan : report.plan.bodies)
+    print(wrapped(fmt::format("{}: keeps {}; drops {}; because {}.", plan.body, plan.kept, plan.dropped, plan.why), 4));
+  for (const std::string& note : report.plan.notes) print(wrapped(note, 4));
+  print("\n  Checks");
+  for (const Finding& finding : report.findings)
+    print(wrapped(fmt::format("{} {}: {}", finding.good ? "ok    " : "FAILED", finding.subject, finding.what), 4));
+  for (const BodyCheck& body : report.bodies)
+    for (const std::string& line : body.losses) print(wrapped(fmt::format("read past in {}: {}", body.name, line), 4));
+}
+
+int run(const Options& options) {
+  const assembly::Scene scene = assembly::read_scene(options.scene);
+  const Report report = examine(scene);
+  if (options.json)
+    print(to_json(scene, report));
+  else
+    print_people(scene, report);
+  return good(report) ? done : check_failed;
+}
+
+}  // namespace
+
+void add_check(CLI::App& program, int& status) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand("check", "read and plan a scene: mass, rigid motions, grounding, ports");
+  command->add_option("SCENE", options->scene, "a scene (.yaml, .json)")->required();
+  command->add_flag("--json", options->json, "one JSON object");
+  command->footer("Example: tenon check scene.yaml");
+  command->callback([options, &status] { status = run(*options); });
+}
+
+}  // namespace tenon::cli

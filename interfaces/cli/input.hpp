@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "assembly/scene.hpp"
+#include "fem/model.hpp"
+
+/// What the word after a command names.
+namespace tenon::cli {
+
+enum class InputKind { scene, deck, mesh };
+
+/// By the extension: .yaml, .yml and .json are scenes, .bdf, .dat, .nas and .blk decks, all else is left to the mesh
+/// readers. Throws InputError when there is no such file, with near misses of its folder.
+InputKind kind_of(const std::filesystem::path& file);
+
+/// A deck's model in its own units; losses that would change the physics must stand in `allow`.
+fem::Model deck_model(const std::filesystem::path& file, const std::vector<std::string>& allow,
+                      fem::Mesh* mesh = nullptr);
+
+/// Losses as lines for people.
+std::vector<std::string> loss_lines(const std::vector<fem::Loss>& losses);
+
+}  // namespace tenon::cli

@@ -1,0 +1,158 @@
+// Mutates the shipped meshes and scenes and a small deck for some seconds and reads them. A reader may refuse (an Error
+// of the project) or read; anything else that escapes, a crash or memory beyond the limit is a fault. The input being
+// read always stands in the folder given, so that a crash leaves its cause behind.
+//
+//   fuzz_readers SECONDS FOLDER [SEED]
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "assembly/scene.hpp"
+#include "fem/error.hpp"
+#include "fem/formats/nastran.hpp"
+#include "fem/formats/read_mesh.hpp"
+
+namespace {
+
+using namespace tenon;
+namespace fs = std::filesystem;
+using Random = std::mt19937_64;
+
+struct Seed {
+  fs::path name;
+  std::string bytes;
+};
+
+const char* const deck = R"(SOL 103
+CEND
+SPC = 1
+BEGIN BULK
+PARAM,COUPMASS,1
+CORD2R  7               0.      0.      0.      0.      0.      1.
+        1.      0.      1.
+GRID,1,,0.,0.,0.
+GRID    2       7       1.      0.      0.
+GRID*   3                               1.              1.
+*       0.
+GRID,4,,0.,1.,0.
+MAT1,1,7.+10,,.33,2700.
+PBAR,1,1,1.-4,1.-8,1.-8,2.-8
+CBAR,1,1,1,2,0.,0.,1.
+PSHELL,2,1,.01,1,,1
+CQUAD4,2,2,1,2,3,4
+CONM2,3,3,,1.5
+RBE2,4,1,123456,4
+SPC1,1,123456,1
+ENDDATA
+)";
+
+std::string bytes_of(const fs::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::vector<Seed> seeds() {
+  std::vector<Seed> all{{"small.bdf", deck}};
+  for (const auto& entry : fs::recursive_directory_iterator(fs::path(TENON_SOURCE_DIR) / "data"))
+    if (const auto extension = entry.path().extension(); extension == ".msh" || extension == ".yaml")
+      all.push_back({entry.path().filename(), bytes_of(entry.path())});
+  return all;
+}
+
+std::size_t below(Random& random, std::size_t n) { return n == 0 ? 0 : random() % n; }
+
+/// One of: a flipped bit, a foreign byte, a cut end, a piece removed, doubled or moved, a number made extreme.
+void mutate(std::string& bytes, const std::vector<Seed>& all, Random& random) {
+  static const std::string numbers[] = {"-1",   "0",          "999999999999", "1e400", "nan",
+                                        "-0.0", "4294967295", "2147483648",   ""};
+  const std::size_t at = below(random, bytes.size()), length = std::min(below(random, 64), bytes.size() - at);
+  switch (below(random, 8)) {
+    case 0:
+      if (!bytes.empty()) bytes[at] = static_cast<char>(bytes[at] ^ (1 << below(random, 8)));
+      break;
+    case 1:
+      bytes.insert(at, 1, static_cast<char>(below(random, 256)));
+      break;
+    case 2:
+      bytes.resize(at);
+      break;
+    case 3:
+      bytes.erase(at, length);
+      break;
+    case 4:
+      bytes.insert(at, bytes.substr(at, length));
+      break;
+    case 5:
+      bytes.insert(below(random, bytes.size()), bytes.substr(at, length));
+      break;
+    case 6: {
+      const std::string& other = all[below(random, all.size())].bytes;
+      bytes.insert(at, other.substr(below(random, other.size()), 64));
+      break;
+    }
+    default: {
+      const std::size_t begin = bytes.find_first_of("0123456789", at);
+      if (begin == std::string::npos) break;
+      const std::size_t end = std::min(bytes.find_first_not_of("0123456789.eE+-", begin), bytes.size());
+      bytes.replace(begin, end - begin, numbers[below(random, std::size(numbers))]);
+    }
+  }
+}
+
+void read(const fs::path& file) {
+  if (file.extension() == ".yaml")
+    assembly::read_scene(file);
+  else if (file.extension() == ".bdf")
+    fem::read_nastran(file);
+  else
+    fem::read_mesh(file);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 3) {
+    fmt::print(stderr, "usage: fuzz_readers SECONDS FOLDER [SEED]\n");
+    return 2;
+  }
+  const double seconds = std::stod(argv[1]);
+  const std::uint64_t seed = argc > 3 ? std::stoull(argv[3]) : std::random_device{}();
+#if !defined(__SANITIZE_ADDRESS__)
+  const rlimit memory{rlim_t{2} << 30, rlim_t{2} << 30};  // a reader that believes a declared count runs into this
+  setrlimit(RLIMIT_AS, &memory);
+#endif
+  const fs::path folder = argv[2];
+  fs::create_directories(folder);
+  const std::vector<Seed> all = seeds();
+  Random random(seed);
+  long read_count = 0, refused = 0;
+  const auto start = std::chrono::steady_clock::now();
+  while (std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < seconds) {
+    const Seed& origin = all[below(random, all.size())];
+    std::string bytes = origin.bytes;
+    for (std::size_t k = 1 + below(random, 4); k > 0; --k) mutate(bytes, all, random);
+    const fs::path file = folder / origin.name;
+    std::ofstream(file, std::ios::binary) << bytes;
+    try {
+      read(file);
+      ++read_count;
+    } catch (const Error&) {
+      ++refused;
+    } catch (const std::exception& fault) {
+      fmt::print(stderr, "{}: {} escaped a reader (seed {})\n", file.string(), fault.what(), seed);
+      return 1;
+    }
+  }
+  fs::remove_all(folder);
+  fmt::print("{} inputs read, {} refused, nothing else escaped (seed {})\n", read_count, refused, seed);
+  return 0;
+}
