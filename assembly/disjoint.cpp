@@ -79,21 +79,23 @@ void add_body(const Builder& b, int k, Rows& W, Rows& E, Rows& F) {
   E.next(m).middleCols(o + 6, m).diagonal() = (2.0 * body.zeta.cwiseProduct(body.omega)).cwiseSqrt();
 }
 
-// 1 m, 1/length rad, and the η that moves the most mobile port by about 1 m (without ports: the body's mass by 1 m)
+// 1 m, 1/length rad, and mode by mode the η that moves the most mobile port by about 1 m. (A mode that stands for a
+// massless direction moves its port many orders more than its neighbours.) A mode that hardly moves any port counts as
+// one of the body's whole mass, a thousandth of it.
 void scale_body(const Builder& b, int k) {
   const ReducedBody& body = b.body(k);
   const Index o = b.offset(k);
   const double length = length_of(b.d.placement);
-  double mobility = 0.0;
-  for (const reduction::BodyPort& port : body.ports)
-    if (body.n() > 0)
-      mobility = std::max({mobility, port.Phi.topRows<3>().cwiseAbs().maxCoeff(),
-                           length * port.Phi.bottomRows<3>().cwiseAbs().maxCoeff()});
   const double mass = body.D(0, 0);
-  const double eta = mobility > 0.0 ? 1.0 / mobility : (mass > 0.0 ? std::sqrt(mass) : 1.0);
+  Eigen::RowVectorXd mobility = Eigen::RowVectorXd::Constant(body.n(), mass > 0.0 ? 1e-3 / std::sqrt(mass) : 1e-3);
+  if (body.n() > 0)
+    for (const reduction::BodyPort& port : body.ports) {
+      mobility = mobility.cwiseMax(port.Phi.topRows<3>().cwiseAbs().colwise().maxCoeff());
+      mobility = mobility.cwiseMax(length * port.Phi.bottomRows<3>().cwiseAbs().colwise().maxCoeff());
+    }
   b.d.scale.segment<3>(o).setOnes();
   b.d.scale.segment<3>(o + 3).setConstant(1.0 / length);
-  b.d.scale.segment(o + 6, body.n()).setConstant(eta);
+  b.d.scale.segment(o + 6, body.n()) = mobility.cwiseInverse().transpose();
 }
 
 void add_joint_rows(const Builder& b, const Joint& joint, Rows& G) {

@@ -15,37 +15,59 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+namespace {
+
+using PivotedQR = Eigen::ColPivHouseholderQR<MatrixXd>;
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+PivotedQR among_unit_rows(const MatrixXd& rows, const VectorXd& lengths) {
+  const VectorXd weight = lengths.unaryExpr([](double l) { return l > 0.0 ? 1.0 / l : 0.0; });
+  return PivotedQR((weight.asDiagonal() * rows).transpose());
+}
+
+// Number of pivots that are not zero; refuses pivots that are neither.
+int decide_rank(const VectorXd& pivots, Eigen::Index largest_size, const std::string& what) {
+  const double zero = static_cast<double>(largest_size) * epsilon;
+  int rank = 0;
+  while (rank < pivots.size() && pivots[rank] > zero) ++rank;
+  if (rank > 0 && pivots[rank - 1] < 1e3 * zero)
+    throw NumericalError(
+        fmt::format("the rank of {} cannot be decided: one direction is neither free nor held, pivot", what),
+        pivots[rank - 1], "Make parallel axes and coincident ports agree to the last digit, or clearly different");
+  return rank;
+}
+
+}  // namespace
+
 RowSpace row_space(const MatrixXd& rows, const VectorXd& lengths, const std::string& what) {
   const Index m = rows.rows(), n = rows.cols();
   RowSpace space;
   space.null = MatrixXd::Identity(n, n);
   space.range.resize(n, 0);
-  const double eps = std::numeric_limits<double>::epsilon();
-  space.gap = 1.0 / eps;
+  space.gap = 1.0 / epsilon;
   for (int i = 0; i < m; ++i) space.redundant.push_back(i);
   if (m == 0 || n == 0) return space;
 
-  const VectorXd weight = lengths.unaryExpr([](double l) { return l > 0.0 ? 1.0 / l : 0.0; });
-  const Eigen::ColPivHouseholderQR<MatrixXd> qr((weight.asDiagonal() * rows).transpose());
+  const PivotedQR qr = among_unit_rows(rows, lengths);
   const VectorXd pivots = qr.matrixQR().diagonal().cwiseAbs();
-  const double zero = static_cast<double>(std::max(m, n)) * eps;
-  int rank = 0;
-  while (rank < pivots.size() && pivots[rank] > zero) ++rank;
-  const double dropped = rank < pivots.size() ? pivots[rank] : 0.0;
-  if (rank > 0 && pivots[rank - 1] < 1e3 * zero)
-    throw NumericalError(
-        fmt::format("the rank of {} cannot be decided: one direction is neither free nor held, pivot", what),
-        pivots[rank - 1], "Make parallel axes and coincident ports agree to the last digit, or clearly different");
-  space.rank = rank;
-  if (rank > 0) space.gap = pivots[rank - 1] / std::max(dropped, eps);
+  space.rank = decide_rank(pivots, std::max(m, n), what);
+  const double dropped = space.rank < pivots.size() ? pivots[space.rank] : 0.0;
+  if (space.rank > 0) space.gap = pivots[space.rank - 1] / std::max(dropped, epsilon);
   const MatrixXd Q = qr.householderQ();
-  space.range = Q.leftCols(rank);
-  space.null = Q.rightCols(n - rank);
+  space.range = Q.leftCols(space.rank);
+  space.null = Q.rightCols(n - space.rank);
   const auto& order = qr.colsPermutation().indices();
   space.redundant.clear();
-  for (int i = 0; i < m; ++i) (i < rank ? space.independent : space.redundant).push_back(order[i]);
+  for (int i = 0; i < m; ++i) (i < space.rank ? space.independent : space.redundant).push_back(order[i]);
   std::sort(space.redundant.begin(), space.redundant.end());
   return space;
+}
+
+int row_rank(const MatrixXd& rows, const VectorXd& lengths, const std::string& what) {
+  if (rows.size() == 0) return 0;
+  return decide_rank(among_unit_rows(rows, lengths).matrixQR().diagonal().cwiseAbs(),
+                     std::max(rows.rows(), rows.cols()), what);
 }
 
 GradedQR graded_qr(const MatrixXd& A, const MatrixXd& apply) {

@@ -23,6 +23,9 @@ struct RowSpace {
 /// factor of 1000 above that: the rank cannot be decided.
 RowSpace row_space(const Eigen::MatrixXd& rows, const Eigen::VectorXd& lengths, const std::string& what);
 
+/// The rank alone, by the same decision.
+int row_rank(const Eigen::MatrixXd& rows, const Eigen::VectorXd& lengths, const std::string& what);
+
 /// R (n×n upper triangular) and the column permutation P with A P = Q R for A of full column rank, by Householder QR
 /// with rows sorted by size and pivoting among the columns: stable row by row, so rows of 1e8 and of 1e-8 both count
 /// (Cox and Higham 1998). With `apply`, also Qᵀ apply.

@@ -29,10 +29,10 @@ struct RightSvd {
 RightSvd right_svd(const MatrixXd& A) {
   constexpr Index jacobi_below = 160;  // Jacobi keeps the small singular values better, at several times the cost
   if (A.cols() <= jacobi_below) {
-    const Eigen::JacobiSVD<MatrixXd> svd(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
+    const Eigen::JacobiSVD<MatrixXd> svd(A, Eigen::ComputeThinV);
     return {svd.singularValues(), svd.matrixV()};
   }
-  const Eigen::BDCSVD<MatrixXd> svd(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const Eigen::BDCSVD<MatrixXd> svd(A, Eigen::ComputeThinV);
   return {svd.singularValues(), svd.matrixV()};
 }
 
@@ -71,11 +71,11 @@ SecondOrderSystem second_order(const Network& network) {
   const RowSpace stiff = row_space(F * held.null, row_lengths(F), "the stiffness");
   const MatrixXd X = held.null * stiff.null, Y = held.null * stiff.range;
   const Index r = X.cols(), f = Y.cols(), n = r + f;
-  const RowSpace heavy = row_space(W * held.null, row_lengths(W), "the mass");
-  const RowSpace heavy_rigid = row_space(W * X, row_lengths(W), "the mass of the rigid motions");
-  if (heavy_rigid.rank < r) refuse_massless(network, d, X * heavy_rigid.null.col(0));
+  const VectorXd mass_lengths = row_lengths(W);
+  if (row_rank(W * X, mass_lengths, "the mass of the rigid motions") < r)
+    refuse_massless(network, d, X * row_space(W * X, mass_lengths, "the mass of the rigid motions").null.col(0));
   s.rigid = static_cast<int>(r);
-  s.massless = static_cast<int>(n) - heavy.rank;
+  s.massless = static_cast<int>(n) - row_rank(W * held.null, mass_lengths, "the mass");
 
   const MatrixXd Z = graded_qr(F * Y).times_inverse(Y);
   const GradedQR rigid = graded_qr(W * X, W * Z);
