@@ -26,7 +26,7 @@ struct ModesOptions {
   bool certify = true;                        ///< inertia count at the upper end
   /// ‖Kφ − λMφ‖ in the norm of A⁻¹, A = K + sM, relative to ‖φ‖_A: bounds |λ − λ_exact| / (λ + s). (The Euclidean norm
   /// would weigh the rounding of K φ on a fine mesh, λ_max / λ times the rounding unit, above everything else.)
-  double residual_limit = 1e-8;
+  double residual_limit = 1e-6;
   int block = 0;  ///< Lanczos block size; 0: chosen
   EigenSolver solver = EigenSolver::block_lanczos;
   int dense_below = 600;  ///< problems of at most this size are solved dense

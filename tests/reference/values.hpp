@@ -33,6 +33,8 @@ inline constexpr std::array<double, 16> fv2{11.3362, 17.7094, 17.7094, 17.7094, 
 inline constexpr std::array<double, 6> fv4{1.723, 1.727, 7.413, 9.972, 18.155, 26.957};
 /// SDLS03 (Guide de validation des progiciels de calcul de structures, SFM 1990): (π/2)(m²/a² + n²/b²) √(D/ρh) [Hz].
 inline constexpr std::array<double, 6> sdls03{35.626, 68.512, 109.620, 123.322, 142.506, 197.315};
+/// SDLS106 (the same guide), 2.0 m × 1.5 m: the same closed form [Hz].
+inline constexpr std::array<double, 5> sdls106{17.128, 35.626, 50.014, 66.457, 68.512};
 /// NAFEMS FV12 with modes 7–9 as converged Kirchhoff solutions (the printed 4.233 and 7.416 are few-term Ritz bounds)
 /// [Hz].
 inline constexpr std::array<double, 8> fv12{1.62165, 2.35950, 2.92228, 4.19024, 4.19024, 7.35600, 7.35600, 7.66821};
