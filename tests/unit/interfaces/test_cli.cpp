@@ -20,7 +20,7 @@ using testing::ContainsRegex;
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
-struct Run {
+struct Ended {
   int status = -1;
   std::string out, err;
 };
@@ -49,18 +49,18 @@ class Cli : public testing::Test {
     scene_ = folder_.write("scene.yaml", beam_scene).string();
   }
 
-  Run tenon(const std::string& arguments) const {
+  Ended tenon(const std::string& arguments) const {
     const fs::path out = folder_.path() / "stdout", err = folder_.path() / "stderr";
     const std::string line = "cd " + folder_.path().string() + " && " + std::string(TENON_PROGRAM) + " " + arguments +
                              " >" + out.string() + " 2>" + err.string() + " </dev/null";
     const int ended = std::system(line.c_str());
-    Run run{WIFEXITED(ended) ? WEXITSTATUS(ended) : -1, text(out), text(err)};
+    Ended run{WIFEXITED(ended) ? WEXITSTATUS(ended) : -1, text(out), text(err)};
     fs::remove(out);
     fs::remove(err);
     return run;
   }
   json object(const std::string& arguments, int status = 0) const {
-    const Run run = tenon(arguments + " --json");
+    const Ended run = tenon(arguments + " --json");
     EXPECT_EQ(run.status, status) << run.err;
     return json::parse(run.out);
   }
@@ -105,19 +105,24 @@ TEST_F(Cli, ModesAgreeWithTheClosedFormOfTheCantilever) {
   const double length = high[0].get<double>() - low[0].get<double>();
   const json modes = object("modes " + scene_ + " --full --count 4");
   EXPECT_EQ(modes["rigid_modes"], 0);
-  // y along the orientation: b = 0.125 bends in x-y, h = 0.25 in x-z. 16 elements: 1e-5 (REFERENCES).
+  // y along the orientation: b = 0.125 bends in x-y, h = 0.25 in x-z; the third mode is torsion. 16 elements: 1e-5.
   const double expected[] = {cantilever_hz(1.875104068712, 0.125, length), cantilever_hz(1.875104068712, 0.25, length),
                              cantilever_hz(4.694091132974, 0.125, length)};
+  const int place[] = {0, 1, 3};
   for (int k = 0; k < 3; ++k) {
-    EXPECT_NEAR(modes["full"]["frequencies_hz"][k].get<double>() / expected[k], 1.0, 1e-5);
-    EXPECT_NEAR(modes["frequencies_hz"][k].get<double>() / expected[k], 1.0, 1e-4);  // the scene's tolerance
+    EXPECT_NEAR(modes["full"]["frequencies_hz"][place[k]].get<double>() / expected[k], 1.0, 1e-5);
+    if (k == 2) continue;  // far above the scene's band
+    EXPECT_NEAR(modes["frequencies_hz"][place[k]].get<double>() / expected[k], 1.0, 1e-4);
   }
   EXPECT_TRUE(modes["full"]["within_tolerance"].get<bool>());
   EXPECT_NEAR(modes["damping_ratios"][0].get<double>(), 0.01, 1e-3);
 }
 
 TEST_F(Cli, ACheckThatFailsEndsWithStatusOne) {
-  const std::string coarse = scene_with("{modes: 12}", "{modes: 0}");
+  std::string coarse = beam_scene;  // static shapes alone miss the first bending modes, which the band asks for
+  coarse.replace(coarse.find("{modes: 12}"), 11, "{modes: 0}");
+  coarse.replace(coarse.find("40 Hz"), 5, "400 Hz");
+  coarse = folder_.write("coarse.yaml", coarse).string();
   const json modes = object("modes " + coarse + " --full --count 4", 1);
   EXPECT_FALSE(modes["full"]["within_tolerance"].get<bool>());
 }
@@ -190,7 +195,7 @@ TEST_F(Cli, TablesFitAHundredColumns) {
 TEST_F(Cli, InitWritesASceneThatOnlyLacksWhatTheUserKnows) {
   const std::string mesh = (folder_.path() / "beam_16.msh").string();
   std::string text = tenon("init " + mesh).out;
-  const Run unfilled = tenon("check " + folder_.write("new.yaml", text).string());
+  const Ended unfilled = tenon("check " + folder_.write("new.yaml", text).string());
   EXPECT_EQ(unfilled.status, 2);
   EXPECT_THAT(unfilled.err, HasSubstr("found 'UNITS', expected one of SI"));
   for (const auto& [word, value] : {std::pair("UNITS ", "SI "), {"[OUTER, INNER]", "[0.1, 0.09]"}, {"BAND", "20"}}) {
@@ -210,7 +215,7 @@ TEST_F(Cli, DoctorSaysWhatIsLinkedAndUnderWhichTerms) {
 TEST_F(Cli, HelpEndsWithStatusZeroAndAnExample) {
   EXPECT_EQ(tenon("--help").status, 0);
   for (const char* command : {"info", "init", "check", "modes", "reduce", "assemble", "frf", "doctor"}) {
-    const Run help = tenon(std::string(command) + " --help");
+    const Ended help = tenon(std::string(command) + " --help");
     EXPECT_EQ(help.status, 0);
     EXPECT_THAT(help.out, HasSubstr("Example"));
   }
@@ -240,7 +245,7 @@ TEST_P(CliBadInput, EndsWithStatusTwoAndWritesNothing) {
     for (std::size_t at = arguments.find(word); at != std::string::npos; at = arguments.find(word))
       arguments.replace(at, word.size(), value);
   const std::vector<std::string> before = files();
-  const Run run = tenon(arguments);
+  const Ended run = tenon(arguments);
   EXPECT_EQ(run.status, 2) << run.out << run.err;
   EXPECT_THAT(run.err, ContainsRegex(bad.message));
   EXPECT_EQ(run.out, "");
