@@ -41,14 +41,17 @@ Eigen::VectorXd BlockLanczos::random() {
   return v;
 }
 
-// W ← (1 − QQᵀ)(1 − Q_l Q_lᵀ) W twice; H collects QᵀW
+// W ← (1 − QQᵀ)(1 − Q_l Q_lᵀ) W twice, the first time along the columns it couples to; H collects QᵀW
 void BlockLanczos::orthogonalise(Eigen::MatrixXd& W, Eigen::MatrixXd* H) const {
   for (int pass = 0; pass < 2; ++pass) {
     if (locked_.cols() > 0) subtract_product(locked_, transposed_product(locked_, W), W);
     if (m_ == 0) continue;
-    const Eigen::MatrixXd h = transposed_product(Q_.leftCols(m_), W);
-    subtract_product(Q_.leftCols(m_), h, W);
-    if (H != nullptr) *H = pass == 0 ? h : Eigen::MatrixXd(*H + h);
+    const Eigen::Index from = pass == 0 && H != nullptr ? coupled_ : 0;
+    const Eigen::MatrixXd h = transposed_product(Q_.middleCols(from, m_ - from), W);
+    subtract_product(Q_.middleCols(from, m_ - from), h, W);
+    if (H == nullptr) continue;
+    if (pass == 0) H->setZero(m_, W.cols());
+    H->bottomRows(m_ - from) += h;
   }
 }
 
@@ -99,6 +102,7 @@ void BlockLanczos::restart() {
   T_.setZero();
   T_.topLeftCorner(keep, keep).diagonal() = ritz_.theta.head(keep);
   m_ = keep;
+  coupled_ = 0;  // the next block couples to all of them
 }
 
 const RitzValues& BlockLanczos::extend(Eigen::MatrixXd image) {
@@ -111,9 +115,12 @@ const RitzValues& BlockLanczos::extend(Eigen::MatrixXd image) {
   Q_.middleCols(m_, b) = F_;
   m_ += b;
   ++steps_;
+  // three-term: C F lies in the previous block, F itself and the next; after a restart in all that was kept
+  const Eigen::Index couple_next = m_ - b;
   const bool null = fresh_ && image.norm() <= vanishing * scale_;  // C maps all that is left to zero
   Eigen::MatrixXd H;
   orthogonalise(image, &H);  // F ← C F − Q (QᵀCF)
+  coupled_ = couple_next;
   T_.block(0, m_ - b, m_, b) = H;
   T_.block(m_ - b, 0, b, m_) = H.transpose();
   T_.block(m_ - b, m_ - b, b, b) = 0.5 * (H.bottomRows(b) + H.bottomRows(b).transpose());

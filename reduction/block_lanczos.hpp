@@ -64,6 +64,7 @@ class BlockLanczos {
   const Eigen::MatrixXd& locked_;
   Eigen::MatrixXd Q_;  ///< basis, the first m_ columns in use
   Eigen::Index m_ = 0;
+  Eigen::Index coupled_ = 0;  ///< C F couples to the basis from this column on, but for rounding
   Eigen::MatrixXd T_, S_, F_, E_;
   RitzValues ritz_;
   double scale_ = 0.0;  ///< largest Ritz value so far: the size of C

@@ -3,9 +3,13 @@
 #include <cblas.h>
 #include <omp.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "fem/error.hpp"
+#include "reduction/panel_kernels.hpp"
+#include "reduction/supernodal.hpp"
+#include "reduction/two_threads.hpp"
 
 extern "C" {  // LAPACK, as OpenBLAS carries it
 void dsyevd_(const char* job, const char* triangle, const int* n, double* a, const int* lda, double* w, double* work,
@@ -16,6 +20,10 @@ void dpotrf_(const char* triangle, const int* n, double* a, const int* lda, int*
 namespace tenon::reduction {
 
 namespace {
+
+constexpr Eigen::Index tall = 20;          // rows a column, from where on a block is tall
+constexpr Eigen::Index stretch = 1024;     // rows a stretch: its panel (64 kB) stays in the cache
+constexpr Eigen::Index worth_two = 20000;  // rows from where on a second thread pays
 
 int blas_int(Eigen::Index n) { return static_cast<int>(n); }
 
@@ -28,10 +36,30 @@ void gemm(CBLAS_TRANSPOSE op, double alpha, const Eigen::Ref<const Eigen::Matrix
 
 }  // namespace
 
+// Tall blocks go through the panel kernels, a stretch of rows at a time: BLAS packs A anew for every call, which costs
+// several times the product when B has eight columns.
 Eigen::MatrixXd transposed_product(const Eigen::Ref<const Eigen::MatrixXd>& A,
                                    const Eigen::Ref<const Eigen::MatrixXd>& B) {
   Eigen::MatrixXd C = Eigen::MatrixXd::Zero(A.cols(), B.cols());
-  gemm(CblasTrans, 1.0, A, B, 0.0, C.data(), A.cols(), C.rows());
+  if (A.rows() < tall * std::max(A.cols(), B.cols())) {
+    gemm(CblasTrans, 1.0, A, B, 0.0, C.data(), A.cols(), C.rows());
+    return C;
+  }
+  Panel H[2] = {Panel(A.cols(), 8), Panel(A.cols(), 8)};
+  for (Eigen::Index c = 0; c < B.cols(); c += 8) {
+    const Eigen::Index width = std::min<Eigen::Index>(8, B.cols() - c);
+    H[0].setZero();
+    H[1].setZero();
+    in_two(A.rows(), A.rows() > worth_two, [&](Eigen::Index begin, Eigen::Index end, int part) {
+      Panel W = Panel::Zero(stretch, 8);
+      for (Eigen::Index i = begin; i < end; i += stretch) {
+        const Eigen::Index rows = std::min(stretch, end - i);
+        W.topLeftCorner(rows, width) = B.block(i, c, rows, width);
+        panel_kernels().pull(A.data() + i, A.outerStride(), rows, A.cols(), W.data(), H[part].data());
+      }
+    });
+    C.middleCols(c, width) = -(H[0] + H[1]).leftCols(width);
+  }
   return C;
 }
 
@@ -43,7 +71,25 @@ Eigen::MatrixXd product(const Eigen::Ref<const Eigen::MatrixXd>& A, const Eigen:
 
 void subtract_product(const Eigen::Ref<const Eigen::MatrixXd>& A, const Eigen::Ref<const Eigen::MatrixXd>& B,
                       Eigen::Ref<Eigen::MatrixXd> C) {
-  gemm(CblasNoTrans, -1.0, A, B, 1.0, C.data(), A.rows(), C.outerStride());
+  if (A.rows() < tall * std::max(A.cols(), B.cols())) {
+    gemm(CblasNoTrans, -1.0, A, B, 1.0, C.data(), A.rows(), C.outerStride());
+    return;
+  }
+  Panel H(A.cols(), 8);
+  for (Eigen::Index c = 0; c < B.cols(); c += 8) {
+    const Eigen::Index width = std::min<Eigen::Index>(8, B.cols() - c);
+    H.setZero();
+    H.leftCols(width) = B.middleCols(c, width);
+    in_two(A.rows(), A.rows() > worth_two, [&](Eigen::Index begin, Eigen::Index end, int) {
+      Panel W = Panel::Zero(stretch, 8);
+      for (Eigen::Index i = begin; i < end; i += stretch) {
+        const Eigen::Index rows = std::min(stretch, end - i);
+        W.topLeftCorner(rows, width) = C.block(i, c, rows, width);
+        panel_kernels().push(A.data() + i, A.outerStride(), rows, A.cols(), H.data(), W.data());
+        C.block(i, c, rows, width) = W.topLeftCorner(rows, width);
+      }
+    });
+  }
 }
 
 SymmetricEigen symmetric_eigen(Eigen::MatrixXd A) {

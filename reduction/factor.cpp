@@ -245,13 +245,9 @@ Eigen::MatrixXd by_panels(const Eigen::Ref<const Eigen::MatrixXd>& B, const int*
   Eigen::MatrixXd X(n, B.cols());
   Panel panel(n, 8);
   for (Eigen::Index c = 0; c < B.cols(); c += 8) {
-    const Eigen::Index width = std::min<Eigen::Index>(8, B.cols() - c);
-    if (width < 8) panel.setZero();
-    for (Eigen::Index k = 0; k < n; ++k)
-      for (Eigen::Index j = 0; j < width; ++j) panel(k, j) = B(in == nullptr ? k : in[k], c + j);
+    pack(B, c, in, panel);
     work(panel);
-    for (Eigen::Index k = 0; k < n; ++k)
-      for (Eigen::Index j = 0; j < width; ++j) X(out == nullptr ? k : out[k], c + j) = panel(k, j);
+    unpack(panel, c, out, X);
   }
   return X;
 }

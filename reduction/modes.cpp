@@ -185,9 +185,9 @@ int settle_low_modes(const Problem& p, Flexible& f) {
   return zero;
 }
 
-double residual(const Problem& p, const Eigen::MatrixXd& X, const Eigen::VectorXd& lambda) {
+double residual(const Problem& p, const Eigen::MatrixXd& X, const Eigen::MatrixXd& MX, const Eigen::VectorXd& lambda) {
   if (X.cols() == 0) return 0.0;
-  const Eigen::MatrixXd R = symmetric_product(p.K, X) - symmetric_product(p.M, X) * lambda.asDiagonal();
+  const Eigen::MatrixXd R = symmetric_product(p.K, X) - MX * lambda.asDiagonal();
   const Eigen::VectorXd scale = (lambda.array() + p.at.s).sqrt();
   const Eigen::MatrixXd E = p.at.factor.half_solve(R);  // ‖L⁻¹P r‖ = ‖r‖ in the norm of A⁻¹
   const Eigen::VectorXd each = E.colwise().norm().transpose().cwiseQuotient(scale);
@@ -271,9 +271,10 @@ Modes solve_modes(const fem::SparseMatrix& K, const fem::SparseMatrix& M, const 
   modes.count_shift = f.cut.sigma;
   modes.next_lambda = kept < flexible ? f.lambda[kept] : 0.0;
   if (kept_rigid < r) modes.next_lambda = 0.0;
-  modes.max_residual = residual(p, modes.shapes, modes.lambda);
+  const Eigen::MatrixXd MX = symmetric_product(M, modes.shapes);
+  modes.max_residual = residual(p, modes.shapes, MX, modes.lambda);
   if (modes.lambda.size() > 0)
-    modes.max_orthogonality = (transposed_product(modes.shapes, symmetric_product(M, modes.shapes)) -
+    modes.max_orthogonality = (transposed_product(modes.shapes, MX) -
                                Eigen::MatrixXd::Identity(modes.lambda.size(), modes.lambda.size()))
                                   .cwiseAbs()
                                   .maxCoeff();

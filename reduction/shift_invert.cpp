@@ -1,51 +1,49 @@
 #include "reduction/shift_invert.hpp"
 
-#include <algorithm>
-#include <thread>
+#include "reduction/panel_kernels.hpp"
+#include "reduction/two_threads.hpp"
 
 namespace tenon::reduction {
 
 ShiftInvert::ShiftInvert(const Factor& factor, const fem::SparseMatrix& M) : factor_(factor) {
-  Eigen::PermutationMatrix<Eigen::Dynamic> P(factor.n());  // P.indices()[row] = place
-  for (int k = 0; k < factor.n(); ++k) P.indices()[factor.permutation()[static_cast<std::size_t>(k)]] = k;
-  M_.resize(M.rows(), M.cols());
-  fem::SparseMatrix permuted(M.rows(), M.cols());
-  permuted = M.selfadjointView<Eigen::Lower>().twistedBy(P);
-  M_ = permuted;
+  const auto n = static_cast<std::size_t>(factor.n());
+  std::vector<int> place(n);
+  for (std::size_t k = 0; k < n; ++k) place[static_cast<std::size_t>(factor.permutation()[k])] = static_cast<int>(k);
+  const auto each = [&](const auto& visit) {  // every entry of P M Pᵀ, both triangles
+    for (int j = 0; j < M.outerSize(); ++j)
+      for (fem::SparseMatrix::InnerIterator it(M, j); it; ++it) {
+        const int r = place[static_cast<std::size_t>(it.row())], c = place[static_cast<std::size_t>(j)];
+        visit(r, c, it.value());
+        if (r != c) visit(c, r, it.value());
+      }
+  };
+  start_.assign(n + 1, 0);
+  each([&](int r, int, double) { ++start_[static_cast<std::size_t>(r) + 1]; });
+  for (std::size_t k = 0; k < n; ++k) start_[k + 1] += start_[k];
+  column_.resize(static_cast<std::size_t>(start_[n]));
+  value_.resize(column_.size());
+  std::vector<int> next(start_.begin(), start_.end() - 1);
+  each([&](int r, int c, double value) {
+    const auto t = static_cast<std::size_t>(next[static_cast<std::size_t>(r)]++);
+    column_[t] = c;
+    value_[t] = value;
+  });
 }
 
 void ShiftInvert::multiply(const Panel& X, Panel& Y) const {
-  const auto rows_between = [&](Eigen::Index begin, Eigen::Index end) {
-    for (Eigen::Index i = begin; i < end; ++i) {
-      Eigen::Matrix<double, 1, 8> sum = Eigen::Matrix<double, 1, 8>::Zero();
-      for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(M_, i); it; ++it)
-        sum += it.value() * X.row(it.col());
-      Y.row(i) = sum;
-    }
-  };
-  const Eigen::Index n = M_.rows();
-  if (M_.nonZeros() < 500000 || std::thread::hardware_concurrency() < 2) {
-    rows_between(0, n);
-    return;
-  }
-  std::thread second(rows_between, n / 2, n);
-  rows_between(0, n / 2);
-  second.join();
+  in_two(rows(), value_.size() > 500000, [&](Eigen::Index begin, Eigen::Index end, int) {
+    panel_kernels().rows(start_.data(), column_.data(), value_.data(), begin, end, X.data(), Y.data());
+  });
 }
 
 void ShiftInvert::apply(const Eigen::Ref<const Eigen::MatrixXd>& X, Eigen::Ref<Eigen::MatrixXd> Y) const {
-  const Eigen::Index n = rows();
-  Panel panel(n, 8), image(n, 8);
+  Panel panel(rows(), 8), image(rows(), 8);
   for (Eigen::Index c = 0; c < X.cols(); c += 8) {
-    const Eigen::Index width = std::min<Eigen::Index>(8, X.cols() - c);
-    if (width < 8) panel.setZero();
-    for (Eigen::Index k = 0; k < n; ++k)
-      for (Eigen::Index j = 0; j < width; ++j) panel(k, j) = X(k, c + j);
+    pack(X, c, nullptr, panel);
     factor_.upper(panel);    // L⁻ᵀ
     multiply(panel, image);  // P M Pᵀ
     factor_.lower(image);    // L⁻¹
-    for (Eigen::Index k = 0; k < n; ++k)
-      for (Eigen::Index j = 0; j < width; ++j) Y(k, c + j) = image(k, j);
+    unpack(image, c, nullptr, Y);
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "reduction/factor.hpp"
 
@@ -31,7 +32,8 @@ class ShiftInvert {
   void multiply(const Panel& X, Panel& Y) const;
 
   const Factor& factor_;
-  Eigen::SparseMatrix<double, Eigen::RowMajor> M_;  ///< P M Pᵀ, both triangles
+  std::vector<int> start_, column_;  ///< P M Pᵀ, both triangles, in compressed rows
+  std::vector<double> value_;
 };
 
 }  // namespace tenon::reduction

@@ -1,8 +1,32 @@
 #include "reduction/sparse.hpp"
 
+#include <algorithm>
 #include <cmath>
 
+#include "reduction/panel_kernels.hpp"
+#include "reduction/supernodal.hpp"
+#include "reduction/two_threads.hpp"
+
 namespace tenon::reduction {
+
+Eigen::MatrixXd symmetric_product(const fem::SparseMatrix& A, const Eigen::Ref<const Eigen::MatrixXd>& X) {
+  Eigen::MatrixXd Y(X.rows(), X.cols());
+  if (X.cols() == 1) {
+    Y.noalias() = A.selfadjointView<Eigen::Lower>() * X;
+    return Y;
+  }
+  const Eigen::Index panels = (X.cols() + 7) / 8;
+  in_two(panels, A.nonZeros() > 100000, [&](Eigen::Index begin, Eigen::Index end, int) {
+    Panel in(X.rows(), 8), out(X.rows(), 8);
+    for (Eigen::Index p = begin; p < end; ++p) {
+      pack(X, 8 * p, nullptr, in);
+      out.setZero();
+      panel_kernels().symmetric(A.cols(), A.outerIndexPtr(), A.innerIndexPtr(), A.valuePtr(), in.data(), out.data());
+      unpack(out, 8 * p, nullptr, Y);
+    }
+  });
+  return Y;
+}
 
 Eigen::VectorXd absolute_product(const fem::SparseMatrix& A, const Eigen::Ref<const Eigen::VectorXd>& x) {
   Eigen::VectorXd y = Eigen::VectorXd::Zero(A.rows());

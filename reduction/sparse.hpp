@@ -8,11 +8,7 @@
 namespace tenon::reduction {
 
 /// A X.
-inline Eigen::MatrixXd symmetric_product(const fem::SparseMatrix& A, const Eigen::Ref<const Eigen::MatrixXd>& X) {
-  Eigen::MatrixXd Y(X.rows(), X.cols());
-  Y.noalias() = A.selfadjointView<Eigen::Lower>() * X;
-  return Y;
-}
+Eigen::MatrixXd symmetric_product(const fem::SparseMatrix& A, const Eigen::Ref<const Eigen::MatrixXd>& X);
 
 /// All of A.
 inline Eigen::MatrixXd dense_matrix(const fem::SparseMatrix& A) {

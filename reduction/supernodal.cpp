@@ -4,25 +4,24 @@
 #include <queue>
 #include <thread>
 
-#include "reduction/supernodal_kernels.hpp"
+#include "reduction/panel_kernels.hpp"
+#include "reduction/two_threads.hpp"
 
 namespace tenon::reduction {
 
 namespace {
 
+constexpr Eigen::Index worth_packing = 20000;  // rows
 constexpr double worth_a_thread = 2e6;  // entries of L below which starting a thread costs more than it saves
 
-// working rows on cache-line boundaries, as the kernels want them
-struct alignas(64) Row {
-  double value[8];
-};
+// working rows, on the heap once a solve
 class Scratch {
  public:
-  explicit Scratch(std::int64_t rows) : rows_(static_cast<std::size_t>(rows), Row{}) {}
-  double* data() { return rows_.data()->value; }
+  explicit Scratch(std::int64_t rows) : values_(static_cast<std::size_t>(8 * rows), 0.0) {}
+  double* data() { return values_.data(); }
 
  private:
-  std::vector<Row> rows_;
+  std::vector<double> values_;
 };
 
 // where a thread finds row i: in X, or (ancestors' rows, second thread) in its own accumulator
@@ -42,7 +41,7 @@ void add8(const double* from, double* to) {
 }
 
 void lower_sweep(const Supernodes& f, const double* values, const std::vector<int>& list, const Rows& at, Scratch& y) {
-  const SupernodeKernels& kernel = supernode_kernels();
+  const PanelKernels& kernel = panel_kernels();
   for (const int s : list) {
     const std::int64_t height = f.height(s), columns = f.columns(s);
     const int* rows = f.rows.data() + f.row_start[static_cast<std::size_t>(s)];
@@ -57,7 +56,7 @@ void lower_sweep(const Supernodes& f, const double* values, const std::vector<in
 }
 
 void upper_sweep(const Supernodes& f, const double* values, const std::vector<int>& list, double* X, Scratch& y) {
-  const SupernodeKernels& kernel = supernode_kernels();
+  const PanelKernels& kernel = panel_kernels();
   for (auto it = list.rbegin(); it != list.rend(); ++it) {
     const int s = *it;
     const std::int64_t height = f.height(s), columns = f.columns(s);
@@ -69,6 +68,23 @@ void upper_sweep(const Supernodes& f, const double* values, const std::vector<in
 }
 
 }  // namespace
+
+void pack(const Eigen::Ref<const Eigen::MatrixXd>& X, Eigen::Index first, const int* order, Panel& panel) {
+  const Eigen::Index width = std::min<Eigen::Index>(8, X.cols() - first);
+  if (width < 8) panel.setZero();
+  in_two(panel.rows(), panel.rows() > worth_packing, [&](Eigen::Index begin, Eigen::Index end, int) {
+    for (Eigen::Index k = begin; k < end; ++k)
+      for (Eigen::Index j = 0; j < width; ++j) panel(k, j) = X(order == nullptr ? k : order[k], first + j);
+  });
+}
+
+void unpack(const Panel& panel, Eigen::Index first, const int* order, Eigen::Ref<Eigen::MatrixXd> X) {
+  const Eigen::Index width = std::min<Eigen::Index>(8, X.cols() - first);
+  in_two(panel.rows(), panel.rows() > worth_packing, [&](Eigen::Index begin, Eigen::Index end, int) {
+    for (Eigen::Index k = begin; k < end; ++k)
+      for (Eigen::Index j = 0; j < width; ++j) X(order == nullptr ? k : order[k], first + j) = panel(k, j);
+  });
+}
 
 TriangularSolver::TriangularSolver(Supernodes shape, int threads) : shape_(std::move(shape)) {
   for (int s = 0; s < shape_.size(); ++s) longest_ = std::max<std::int64_t>(longest_, shape_.height(s));

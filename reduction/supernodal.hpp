@@ -10,6 +10,12 @@ namespace tenon::reduction {
 /// eight solves.
 using Panel = Eigen::Matrix<double, Eigen::Dynamic, 8, Eigen::RowMajor>;
 
+/// Columns first .. first + 8 of X (fewer at the end: zeros) as a panel; row k of it is row order[k] of X (order may be
+/// null).
+void pack(const Eigen::Ref<const Eigen::MatrixXd>& X, Eigen::Index first, const int* order, Panel& panel);
+/// The inverse: row k of the panel becomes row order[k] of X.
+void unpack(const Panel& panel, Eigen::Index first, const int* order, Eigen::Ref<Eigen::MatrixXd> X);
+
 /// The shape of a supernodal Cholesky factor L: supernode s holds the columns first[s] .. first[s+1]; their common rows
 /// are rows[row_start[s] .. row_start[s+1]), the columns themselves first; its values are a dense column-major block at
 /// values[value_start[s]].
