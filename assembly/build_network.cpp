@@ -1,22 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 
 #include "assembly/build.hpp"
 #include "reduction/body_file.hpp"
 
 namespace tenon::assembly {
 namespace {
-
-/// FNV-1a, 64 bits, of a file's bytes: tells two versions of a mesh apart; not meant against forgery.
-std::string hash_of(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::uint64_t hash = 14695981039346656037ull;
-  for (std::istreambuf_iterator<char> at(stream), end; at != end; ++at)
-    hash = (hash ^ static_cast<unsigned char>(*at)) * 1099511628211ull;
-  return fmt::format("fnv1a64:{:016x}", hash);
-}
 
 /// Ports with the parent port first.
 std::vector<reduction::BodyPort> ordered(std::vector<reduction::BodyPort> ports, const std::string& parent) {
@@ -44,7 +34,7 @@ ReducedBody reduce_fe(const SceneBody& body, const FeSource& fe, const BodyPlan&
     for (const fem::Port& port : structure.ports)
       ports.push_back({port.name, structure.nodes[static_cast<std::size_t>(port.node)], port.axes, {}});
     reduced = reduction::rigid_body(body.name, mass.mass, mass.centre, mass.inertia, ordered(ports, body.parent_port));
-    reduced.certificate.left_out.push_back("all flexibility: the scene takes the body as rigid");
+    reduced.certificate.left_out.emplace_back("all flexibility: the scene takes the body as rigid");
   } else {
     reduction::ReduceOptions options = plan.options;
     options.progress = progress;
@@ -52,7 +42,7 @@ ReducedBody reduce_fe(const SceneBody& body, const FeSource& fe, const BodyPlan&
   }
   reduced.name = body.name;
   reduced.certificate.source = fe.file.filename().string();
-  reduced.certificate.source_hash = hash_of(fe.file);
+  reduced.certificate.source_hash = reduction::file_hash(fe.file);
   reduced.certificate.nodes = static_cast<int>(model.nodes.size());
   reduced.certificate.elements = static_cast<int>(model.elements.size());
   reduced.certificate.dofs = structure.n();

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "assembly/kinematics.hpp"
@@ -59,6 +60,13 @@ struct Builder {
 
 double length_of(const Placement& placement) { return placement.size > 0.0 ? placement.size : 1.0; }
 
+// E with EᵀE = C
+MatrixXd damping_root(const ReducedBody& body) {
+  if (body.C.size() == 0) return Eigen::VectorXd((2.0 * body.zeta.cwiseProduct(body.omega)).cwiseSqrt()).asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(body.C);
+  return eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal() * eigen.eigenvectors().transpose();
+}
+
 // [D Lᵀ; L 1] in world axes and its root [S 0; L 1], SᵀS = D − LᵀL
 void add_body(const Builder& b, int k, Rows& W, Rows& E, Rows& F) {
   const ReducedBody& body = b.body(k);
@@ -70,13 +78,13 @@ void add_body(const Builder& b, int k, Rows& W, Rows& E, Rows& F) {
   b.d.M.block(o + 6, o, m, 6) = L;
   b.d.M.block(o + 6, o + 6, m, m).setIdentity();
   b.d.K.diagonal().segment(o + 6, m) = body.omega.cwiseAbs2();
-  b.d.C.diagonal().segment(o + 6, m) = 2.0 * body.zeta.cwiseProduct(body.omega);
+  b.d.C.block(o + 6, o + 6, m, m) = reduction::damping(body);
   W.next(6).middleCols<6>(o) = mass_root(body.D - body.L.transpose() * body.L, body.D.diagonal()) * R6.transpose();
   auto flexible = W.next(m);
   flexible.middleCols<6>(o) = L;
   flexible.middleCols(o + 6, m).setIdentity();
   F.next(m).middleCols(o + 6, m).diagonal() = body.omega;
-  E.next(m).middleCols(o + 6, m).diagonal() = (2.0 * body.zeta.cwiseProduct(body.omega)).cwiseSqrt();
+  E.next(m).middleCols(o + 6, m) = damping_root(body);
 }
 
 // 1 m, 1/length rad, and mode by mode the η that moves the most mobile port by about 1 m. (A mode that stands for a

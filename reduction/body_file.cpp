@@ -169,6 +169,8 @@ ReducedBody from_json(const Reader& r) {
   body.omega = r["omega_rad_s"].vector(-1);
   const Eigen::Index n = body.omega.size();
   body.zeta = r["zeta"].vector(n);
+  const bool full = !r["C"].items().empty();
+  body.C = r["C"].matrix(full ? n : 0, full ? n : 0);
   body.L = r["L"].matrix(n, 6);
   body.D = r["D"].matrix(6, 6);
   for (const Reader& port : r["ports"].items())
@@ -205,6 +207,7 @@ void write_body(const std::filesystem::path& path, const ReducedBody& body) {
                      {"parent", body.parent},
                      {"omega_rad_s", list(body.omega)},
                      {"zeta", list(body.zeta)},
+                     {"C", to_json(body.C)},
                      {"L", to_json(body.L)},
                      {"D", to_json(body.D)},
                      {"ports", std::move(ports)},

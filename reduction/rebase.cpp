@@ -40,10 +40,8 @@ ReducedBody rebase(const ReducedBody& body, int port) {
   result.omega = modal.omega;
   result.L = modal.L;
   result.D = 0.5 * (D + D.transpose());
-  // modal damping VᵀCV; what couples the new modes is left out, equal ratios stay what they were
-  const bool uniform = body.n() == 0 || body.zeta.maxCoeff() == body.zeta.minCoeff();
-  for (Eigen::Index j = 0; !uniform && j < result.omega.size(); ++j)
-    result.zeta[j] = modal.V.col(j).cwiseAbs2().dot(body.zeta.cwiseProduct(body.omega)) / result.omega[j];
+  if (body.C.size() > 0 || body.zeta.cwiseAbs().sum() > 0.0)
+    set_damping(result, modal.V.transpose() * damping(body) * modal.V);
   for (BodyPort& p : result.ports)  // x_k = τ_k τ_Q⁻¹ x_Q + (Φ_k − τ_k τ_Q⁻¹ Φ_Q) η
     p.Phi = (p.Phi - fem::tau(p.position - hung.position) * Phi_Q) * modal.V;
   result.ports[static_cast<std::size_t>(port)].Phi = Mat6X::Zero(6, modal.V.cols());

@@ -35,6 +35,17 @@ ReducedBody rigid_body(std::string name, double mass, const Vec3& centre, const 
   return body;
 }
 
+Eigen::MatrixXd damping(const ReducedBody& body) {
+  if (body.C.size() > 0) return body.C;
+  return Eigen::VectorXd(2.0 * body.zeta.cwiseProduct(body.omega)).asDiagonal();
+}
+
+void set_damping(ReducedBody& body, const Eigen::MatrixXd& C) {
+  body.C = 0.5 * (C + C.transpose());
+  for (Eigen::Index j = 0; j < body.omega.size(); ++j)
+    body.zeta[j] = body.omega[j] > 0.0 ? 0.5 * body.C(j, j) / body.omega[j] : 0.0;
+}
+
 namespace {
 
 [[noreturn]] void broken(const ReducedBody& body, const std::string& what, const std::string& cure) {
@@ -55,7 +66,8 @@ void check(const ReducedBody& body) {
   const Eigen::Index n = body.omega.size();
   const std::string redo = "The body's data are damaged or were put together wrongly: reduce it again";
   const bool sizes =
-      body.zeta.size() == n && body.L.rows() == n && body.L.cols() == 6 &&
+      body.zeta.size() == n && (body.C.size() == 0 || (body.C.rows() == n && body.C.cols() == n)) &&
+      body.L.rows() == n && body.L.cols() == 6 &&
       std::all_of(body.ports.begin(), body.ports.end(), [&](const BodyPort& port) { return port.Phi.cols() == n; }) &&
       (body.node_shapes.size() == 0 ||
        (body.node_shapes.cols() == n &&
@@ -65,14 +77,22 @@ void check(const ReducedBody& body) {
   const bool cantilever = body.kind == ReducedBody::Kind::cantilever;
   if (cantilever ? body.parent < 0 || body.parent >= static_cast<int>(body.ports.size()) : body.parent != -1)
     broken(body, fmt::format("its parent port has the number {}, of {} ports", body.parent, body.ports.size()), redo);
-  bool finite = body.omega.allFinite() && body.zeta.allFinite() && body.L.allFinite() && body.D.allFinite() &&
-                body.reference.allFinite() && body.node_shapes.allFinite();
+  bool finite = body.omega.allFinite() && body.zeta.allFinite() && body.C.allFinite() && body.L.allFinite() &&
+                body.D.allFinite() && body.reference.allFinite() && body.node_shapes.allFinite();
   for (const BodyPort& port : body.ports)
     finite = finite && port.Phi.allFinite() && port.position.allFinite() && port.axes.allFinite();
   if (!finite) broken(body, "a number in it is not finite", redo);
   if (n > 0 && body.omega.minCoeff() < 0.0) broken(body, "a frequency is negative", redo);
   if ((body.D - body.D.transpose()).cwiseAbs().maxCoeff() > 1e-12 * body.D.cwiseAbs().maxCoeff())
     broken(body, "its mass matrix D is not symmetric", redo);
+  if (body.C.size() > 0) {
+    if ((body.C - body.C.transpose()).cwiseAbs().maxCoeff() > 1e-12 * body.C.cwiseAbs().maxCoeff())
+      broken(body, "its damping matrix C is not symmetric", redo);
+    const double least =
+        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(body.C, Eigen::EigenvaluesOnly).eigenvalues()[0];
+    if (least < -1e-12 * body.C.cwiseAbs().maxCoeff() * static_cast<double>(n))
+      broken(body, fmt::format("its damping matrix C has the negative eigenvalue {:.3g} rad/s", least), redo);
+  }
   // round-off of D and L, scaled to unit diagonal; a body that is all modes has D − LᵀL = 0 in some directions
   const double tolerance = 1e-9;
   if (const double least = least_scaled(body.D, body.D); least < -tolerance)

@@ -47,7 +47,8 @@ struct ReducedBody {
   Vec3 reference = Vec3::Zero();  ///< point of x_ref: the parent port (cantilever) or the mass centre (free-free) [m]
   int parent = 0;                 ///< index into ports of the port the body hangs by; −1 for free-free
   Eigen::VectorXd omega;          ///< n modal frequencies [rad/s], ascending
-  Eigen::VectorXd zeta;           ///< n damping ratios
+  Eigen::VectorXd zeta;           ///< n damping ratios, diag(C) / 2ω
+  Eigen::MatrixXd C;              ///< n×n modal damping matrix [rad/s]; empty: diag(2ζω)
   Eigen::MatrixXd L;              ///< n×6 participation at the reference [√kg, √kg·m]
   Mat6 D = Mat6::Zero();          ///< rigid mass matrix at the reference
   std::vector<BodyPort> ports;
@@ -77,8 +78,14 @@ ReducedBody rigid_body(std::string name, double mass, const Vec3& centre, const 
 /// ModelError.
 void check(const ReducedBody& body);
 
-/// The same body hung by another of its ports: exact in the reduced space (congruence and a small eigen-solve), but for
-/// unequal damping ratios, of which the new modes keep VᵀCV's diagonal.
+/// The modal damping matrix, whichever way it is given: C or diag(2ζω), n×n.
+Eigen::MatrixXd damping(const ReducedBody& body);
+
+/// Gives the body the damping matrix C (n×n, symmetric, positive semi-definite) and the ratios that its diagonal says.
+void set_damping(ReducedBody& body, const Eigen::MatrixXd& C);
+
+/// The same body hung by another of its ports: exact in the reduced space, by a congruence and a small eigen-solve. The
+/// damping of a damped body becomes a full matrix VᵀCV.
 ReducedBody rebase(const ReducedBody& body, int port);
 
 /// Effective mass per direction Σ_j L_jd² as a table: n×6, and the remainder diag(D) − Σ_j L_jd² (6).

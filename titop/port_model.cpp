@@ -97,20 +97,21 @@ PortModel port_model(const reduction::ReducedBody& body, const std::vector<int>&
   extend(ss.inputs, acceleration_channels(name));
   extend(ss.outputs, wrench_channels(name));
 
-  const Eigen::VectorXd k = body.omega.cwiseAbs2(), d = 2.0 * body.zeta.cwiseProduct(body.omega);
+  const Eigen::VectorXd k = body.omega.cwiseAbs2();
+  const MatrixXd damping = reduction::damping(body);
   const MatrixXd coupling = tau - Phi * body.L;
-  // η̈ = −diag(ω²) η − diag(2ζω) η̇ + Phiᵀ W_C − L ẍ_P, eq (1)
+  // η̈ = −diag(ω²) η − C η̇ + Phiᵀ W_C − L ẍ_P, eq (1)
   ss.A = MatrixXd::Zero(2 * n, 2 * n);
   ss.A.topRightCorner(n, n).setIdentity();
   ss.A.bottomLeftCorner(n, n).diagonal() = -k;
-  ss.A.bottomRightCorner(n, n).diagonal() = -d;
+  ss.A.bottomRightCorner(n, n) = -damping;
   ss.B = MatrixXd::Zero(2 * n, c + 6);
   ss.B.bottomLeftCorner(n, c) = Phi.transpose();
   ss.B.bottomRightCorner(n, 6) = -body.L;
   // ẍ_C = τ ẍ_P + Phi η̈, eq (2);  W_P = τᵀ W_C − D ẍ_P − Lᵀ η̈, first row of (1)
   ss.C.resize(c + 6, 2 * n);
-  ss.C << -Phi * k.asDiagonal(), -Phi * d.asDiagonal(),  //
-      body.L.transpose() * k.asDiagonal(), body.L.transpose() * d.asDiagonal();
+  ss.C << -Phi * k.asDiagonal(), -Phi * damping,  //
+      body.L.transpose() * k.asDiagonal(), body.L.transpose() * damping;
   ss.D.resize(c + 6, c + 6);
   ss.D << Phi * Phi.transpose(), coupling,  //
       coupling.transpose(), residual_mass(body);

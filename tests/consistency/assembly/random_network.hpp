@@ -46,6 +46,10 @@ class RandomNetwork {
     b.omega = Eigen::VectorXd::NullaryExpr(n, [&] { return log_uniform(1.0, 100.0); });
     std::sort(b.omega.data(), b.omega.data() + n);
     b.zeta = Eigen::VectorXd::NullaryExpr(n, [&] { return uniform(0.002, 0.05); });
+    if (n > 0 && chance(0.3)) {  // modes coupled by a full damping matrix of rank 1 to n
+      const Eigen::MatrixXd E = matrix(integer(1, n), n);
+      reduction::set_damping(b, 0.05 * E.transpose() * E);
+    }
     for (int p = 0; p < ports; ++p) {
       reduction::BodyPort port;
       port.name = "p" + std::to_string(p);
@@ -95,14 +99,11 @@ class RandomNetwork {
     return j;
   }
 
-  /// `any_port`: bodies may hang by any of their ports, be free-free, and be grounded anywhere; damping is then in the
-  /// joints alone, since hanging a body by another port leaves out what its damping couples among the new modes.
+  /// `any_port`: bodies may hang by any of their ports, be free-free, and be grounded anywhere.
   Network tree(bool any_port) {
     Network net;
     const int count = integer(2, 8);
     for (int k = 0; k < count; ++k) net.bodies.push_back(body("b" + std::to_string(k), any_port && chance(0.25)));
-    if (any_port)
-      for (ReducedBody& b : net.bodies) b.zeta.setZero();
     for (int k = 1; k < count; ++k) {
       const PortRef outer = any_port ? port(net, k) : PortRef{k, net.bodies[static_cast<std::size_t>(k)].parent};
       net.joints.push_back(joint("j" + std::to_string(k), port(net, integer(0, k - 1)), outer));

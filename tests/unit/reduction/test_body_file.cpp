@@ -22,6 +22,7 @@ ReducedBody awkward() {
                                 {{"root", Vec3(1e-300, 0.1, 0.2)}, {"tip", Vec3(4.0, -0.0, 1.0 / 7.0)}});
   body.omega = Eigen::Vector2d(std::numbers::pi, 5e-324);
   body.zeta = Eigen::Vector2d(0.1 + 0.2, 0.0);
+  body.C = Eigen::Matrix2d{{1.0 / 3.0, 0.1}, {0.1, 1.0 / 7.0}};
   body.L = Eigen::MatrixXd::Constant(2, 6, 1.0 / 49.0);
   body.ports[0].Phi = Mat6X::Zero(6, 2);
   body.ports[1].Phi = Mat6X::Constant(6, 2, 1.0 + std::numeric_limits<double>::epsilon());
@@ -76,6 +77,7 @@ TEST_F(BodyFile, EveryBitSurvives) {
   expect_same_bits(in.reference, out.reference);
   expect_same_bits(in.omega, out.omega);
   expect_same_bits(in.zeta, out.zeta);
+  expect_same_bits(in.C, out.C);
   expect_same_bits(in.L, out.L);
   expect_same_bits(in.D, out.D);
   ASSERT_EQ(in.ports.size(), 2u);
@@ -100,7 +102,7 @@ TEST_F(BodyFile, RefusesWithASentence) {
   EXPECT_THAT(refusal(""), HasSubstr("the file is empty"));
   EXPECT_THAT(refusal("{\n\"format\": 3,\n  oops}"), HasSubstr(":3:"));
   EXPECT_THAT(refusal("[1, 2]"), HasSubstr("'format' is missing"));
-  EXPECT_THAT(refusal("/version", 99), HasSubstr("'version' is 99; this program reads version 1"));
+  EXPECT_THAT(refusal("/version", 99), HasSubstr("'version' is 99; this program reads version 2"));
   EXPECT_THAT(refusal("/format", "something"), HasSubstr("not 'tenon reduced body'"));
   EXPECT_THAT(refusal("/units/length", "mm"), HasSubstr("'units.length' is 'mm'"));
   EXPECT_THAT(refusal("/zeta", {0.1}), HasSubstr("'zeta' has 1 numbers where 2 are expected"));
