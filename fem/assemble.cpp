@@ -93,7 +93,7 @@ ElementDofs free_dofs(const Model& model, const DofMap& map) {
 /// Adds T_eᵀ A T_e of one element after the other; its scratch lives as long as the assembly.
 class Scatter {
  public:
-  Scatter(const DofMap& map, SparseMatrix& K, SparseMatrix& M) : map_(map), K_(K), M_(M) {}
+  Scatter(const DofMap& map, SparseMatrix& K, double* M) : map_(map), K_(K), M_(M) {}
 
   void add(const FullDofs& dofs, std::span<const int> free, const ElementMatrices& e) {
     const auto n = static_cast<Eigen::Index>(free.size());
@@ -121,7 +121,7 @@ class Scatter {
       for (Eigen::Index a = b; a < n; ++a) {
         at = position(free[static_cast<std::size_t>(a)], j, at);
         K_.valuePtr()[at] += TKT_(a, b);
-        M_.valuePtr()[at] += TMT_(a, b);
+        M_[at] += TMT_(a, b);
       }
     }
   }
@@ -161,22 +161,21 @@ class Scatter {
         const int local_i = order[static_cast<std::size_t>(a)];
         at = position(local_[static_cast<std::size_t>(local_i)], j, at);
         K_.valuePtr()[at] += e.K(local_i, local_j);
-        M_.valuePtr()[at] += e.M(local_i, local_j);
+        M_[at] += e.M(local_i, local_j);
       }
     }
   }
 
   const DofMap& map_;
   SparseMatrix& K_;
-  SparseMatrix& M_;
+  double* M_;  // values in the pattern of K
   std::array<int, ElementMatrices::max_dofs> local_{};
   Eigen::MatrixXd T_, KT_, MT_, TKT_, TMT_;
 };
 
 /// Element matrices are computed side by side in chunks and added in the order of the elements: the sums do not depend
 /// on the number of threads.
-void add_elements(const Model& model, const DofMap& map, const ElementDofs& elements, SparseMatrix& K,
-                  SparseMatrix& M) {
+void add_elements(const Model& model, const DofMap& map, const ElementDofs& elements, SparseMatrix& K, double* M) {
   constexpr std::size_t chunk = 256;
   std::vector<ElementMatrices> matrices(std::min(chunk, model.elements.size()));
   Scatter scatter(map, K, M);
@@ -262,12 +261,12 @@ Structure assemble(const Model& model) {
   Structure s;
   s.dofs = eliminate_constraints(model, used_dofs(model));
   const ElementDofs elements = free_dofs(model, s.dofs);
-  const LowerPattern pattern = lower_pattern(elements, s.dofs.n_free());
-  s.K = zeros(pattern);
-  s.M = zeros(pattern);
-  add_elements(model, s.dofs, elements, s.K, s.M);
-  s.K.prune([](Eigen::Index, Eigen::Index, double value) { return value != 0.0; });
-  s.M.prune([](Eigen::Index, Eigen::Index, double value) { return value != 0.0; });
+  s.K = lower_zeros(elements, s.dofs.n_free());
+  s.M.resize(s.K.rows(), s.K.cols());
+  s.M.resizeNonZeros(s.K.nonZeros());  // one pattern for both while they grow
+  std::fill(s.M.valuePtr(), s.M.valuePtr() + s.K.nonZeros(), 0.0);
+  add_elements(model, s.dofs, elements, s.K, s.M.valuePtr());
+  drop_zeros(s.K, s.M);
   s.nodes = model.nodes;
   s.node_ids = model.node_ids;
   s.scalar_points = model.scalar_points;

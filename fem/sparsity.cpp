@@ -26,19 +26,18 @@ ElementDofs elements_of_dofs(const ElementDofs& elements, int n) {
 
 }  // namespace
 
-LowerPattern lower_pattern(const ElementDofs& elements, int n) {
+SparseMatrix lower_zeros(const ElementDofs& elements, int n) {
   const ElementDofs of_dof = elements_of_dofs(elements, n);
-  LowerPattern pattern;
-  pattern.column_start.assign(1, 0);
-  pattern.column_start.reserve(static_cast<std::size_t>(n) + 1);
+  SparseMatrix A(n, n);
   std::vector<int> marked(static_cast<std::size_t>(n), -1);
   std::vector<int> neighbours;
   std::size_t entries = 0;
-  for (int pass = 0; pass < 2; ++pass) {  // first count, then fill: the array is allocated once, at its size
+  for (int pass = 0; pass < 2; ++pass) {  // first count, then fill: the arrays are allocated once, at their size
     if (pass == 1) {
-      pattern.row.reserve(entries);
+      A.resizeNonZeros(static_cast<Eigen::Index>(entries));
       std::fill(marked.begin(), marked.end(), -1);
     }
+    int* row = A.innerIndexPtr();
     for (int j = 0; j < n; ++j) {
       const auto column = static_cast<std::size_t>(j);
       const bool same_elements = j > 0 && std::ranges::equal(of_dof.of(column), of_dof.of(column - 1));
@@ -58,8 +57,8 @@ LowerPattern lower_pattern(const ElementDofs& elements, int n) {
       if (pass == 0) {
         entries += static_cast<std::size_t>(neighbours.end() - lower);
       } else {
-        pattern.row.insert(pattern.row.end(), lower, neighbours.end());
-        pattern.column_start.push_back(static_cast<int>(pattern.row.size()));
+        row = std::copy(lower, neighbours.end(), row);
+        A.outerIndexPtr()[j + 1] = static_cast<int>(row - A.innerIndexPtr());
       }
     }
     if (entries > static_cast<std::size_t>(std::numeric_limits<int>::max()))
@@ -67,17 +66,33 @@ LowerPattern lower_pattern(const ElementDofs& elements, int n) {
                            static_cast<double>(entries),
                            "Use a coarser mesh, or cut the body in two and join the parts by ports");
   }
-  return pattern;
+  std::fill(A.valuePtr(), A.valuePtr() + entries, 0.0);
+  return A;
 }
 
-SparseMatrix zeros(const LowerPattern& pattern) {
-  const auto n = static_cast<Eigen::Index>(pattern.column_start.size()) - 1;
-  SparseMatrix A(n, n);
-  A.resizeNonZeros(static_cast<Eigen::Index>(pattern.row.size()));
-  std::copy(pattern.column_start.begin(), pattern.column_start.end(), A.outerIndexPtr());
-  std::copy(pattern.row.begin(), pattern.row.end(), A.innerIndexPtr());
-  std::fill(A.valuePtr(), A.valuePtr() + pattern.row.size(), 0.0);
-  return A;
+void drop_zeros(SparseMatrix& A, SparseMatrix& B) {
+  int to_A = 0, to_B = 0, at = 0;
+  for (int j = 0; j < A.outerSize(); ++j) {
+    const int end = A.outerIndexPtr()[j + 1];
+    for (; at < end; ++at) {  // what is written lies at or before what is read
+      const int row = A.innerIndexPtr()[at];
+      if (const double value = A.valuePtr()[at]; value != 0.0) {
+        A.innerIndexPtr()[to_A] = row;
+        A.valuePtr()[to_A++] = value;
+      }
+      if (const double value = B.valuePtr()[at]; value != 0.0) {
+        B.innerIndexPtr()[to_B] = row;
+        B.valuePtr()[to_B++] = value;
+      }
+    }
+    A.outerIndexPtr()[j + 1] = to_A;
+    B.outerIndexPtr()[j + 1] = to_B;
+  }
+  for (auto [matrix, kept] : {std::pair{&B, to_B}, std::pair{&A, to_A}}) {
+    const bool roomy = 10 * static_cast<long>(kept) < 9 * static_cast<long>(at);
+    matrix->data().resize(kept);
+    if (roomy) matrix->data().squeeze();
+  }
 }
 
 }  // namespace tenon::fem

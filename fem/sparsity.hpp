@@ -18,14 +18,11 @@ struct ElementDofs {
   std::size_t size() const { return start.size() - 1; }
 };
 
-/// Lower-triangular pattern (column starts and sorted row indices) of Σ T_eᵀ A_e T_e over n free dofs.
-struct LowerPattern {
-  std::vector<int> column_start;
-  std::vector<int> row;
-};
-LowerPattern lower_pattern(const ElementDofs& elements, int n);
+/// The lower triangle of Σ T_eᵀ A_e T_e over n free dofs, every entry that an element may fill present with value zero.
+SparseMatrix lower_zeros(const ElementDofs& elements, int n);
 
-/// A square sparse matrix with that pattern and zero values.
-SparseMatrix zeros(const LowerPattern& pattern);
+/// Takes the entries that are exactly zero out of A and B, in place. B comes with the values of A's pattern alone (as
+/// many non-zeros as A, indices not yet written) and leaves with a pattern of its own.
+void drop_zeros(SparseMatrix& A, SparseMatrix& B);
 
 }  // namespace tenon::fem
