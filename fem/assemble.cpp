@@ -173,6 +173,15 @@ class Scatter {
   Eigen::MatrixXd T_, KT_, MT_, TKT_, TMT_;
 };
 
+[[noreturn]] void rethrow(const std::exception_ptr& fault, const std::string& source) {
+  try {
+    std::rethrow_exception(fault);
+  } catch (const ModelError& error) {
+    if (source.empty()) throw;
+    throw ModelError(source, error);
+  }
+}
+
 /// Element matrices are computed side by side in chunks and added in the order of the elements: the sums do not depend
 /// on the number of threads.
 void add_elements(const Model& model, const DofMap& map, const ElementDofs& elements, SparseMatrix& K, double* M) {
@@ -195,7 +204,7 @@ void add_elements(const Model& model, const DofMap& map, const ElementDofs& elem
         }
       }
     }
-    if (faults.front()) std::rethrow_exception(faults.front());
+    if (faults.front()) rethrow(faults.front(), model.source);
     for (std::size_t i = 0; i < count; ++i)
       scatter.add(full_dofs(model.elements[first + i]), elements.of(first + i), matrices[i]);
   }

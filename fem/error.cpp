@@ -26,6 +26,8 @@ InputError::InputError(const Place& place, const std::string& what, const std::s
 ModelError::ModelError(const std::string& what, const std::string& cure)
     : Error(fmt::format("{} {}", sentence(what), sentence(cure))) {}
 
+ModelError::ModelError(const std::string& file, const ModelError& fault) : Error(file + ": " + fault.what()) {}
+
 NumericalError::NumericalError(const std::string& what, double figure, const std::string& cure)
     : Error(fmt::format("{} ({:.3g}). {}", what, figure, sentence(cure))), figure_(figure) {}
 

@@ -37,6 +37,8 @@ class ModelError : public Error {
  public:
   /// Message: "<what>. <cure>."
   ModelError(const std::string& what, const std::string& cure);
+  /// The same fault, said of a file: "<file>: <message>".
+  ModelError(const std::string& file, const ModelError& fault);
 };
 
 /// A result cannot be computed reliably; `figure` is the achieved value of the quantity that failed.

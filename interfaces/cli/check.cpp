@@ -47,7 +47,7 @@ double relative_rigid_force(const fem::Structure& structure) {
   return worst;
 }
 
-BodyCheck check_fe(const assembly::SceneBody& body, std::vector<Finding>& findings) {
+BodyCheck check_fe(const assembly::Scene& scene, const assembly::SceneBody& body, std::vector<Finding>& findings) {
   const fem::Model model = assembly::build_model(body);
   const fem::Structure structure = fem::assemble(model);
   BodyCheck check{.name = body.name,
@@ -59,7 +59,10 @@ BodyCheck check_fe(const assembly::SceneBody& body, std::vector<Finding>& findin
                   .losses = loss_lines(model.losses)};
   if (!model.supports.empty()) {
     findings.push_back(
-        {body.name, fmt::format("{} dofs are held to the inertial frame by `fix`", model.supports.size())});
+        {body.name,
+         fmt::format("{} dofs are held to the inertial frame by `fix`{}", model.supports.size(),
+                     scene.joints.empty() ? ": solve with `tenon modes --full`" : ", so it cannot be reduced and joined"),
+         scene.joints.empty()});
     return check;
   }
   const fem::MassProperties geometry = fem::geometric_mass_properties(model);
@@ -110,7 +113,7 @@ Report examine(const assembly::Scene& scene) {
   bool joinable = true;
   for (const assembly::SceneBody& body : scene.bodies)
     if (std::holds_alternative<assembly::FeSource>(body.source)) {
-      report.bodies.push_back(check_fe(body, report.findings));
+      report.bodies.push_back(check_fe(scene, body, report.findings));
       joinable = joinable && !body.ports.empty();
     } else {
       report.bodies.push_back({.name = body.name, .kind = "", .mass = {}, .losses = {}});

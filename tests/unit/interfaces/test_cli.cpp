@@ -231,6 +231,23 @@ struct BadInput {
   const char* message;  ///< regular expression
 };
 
+/// Gmsh 2.2: sets root (a point) and part; `cells` are lines "id type 2 2 1 nodes..." of the set part.
+std::string small_mesh(int cell_dimension, const std::vector<std::string>& cells) {
+  std::string mesh =
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n0 1 \"root\"\n" + std::to_string(cell_dimension) +
+      " 2 \"part\"\n$EndPhysicalNames\n$Nodes\n5\n1 0 0 0\n2 1 0 0\n3 1 0 0\n4 2 0 0\n5 3 0 0\n$EndNodes\n"
+      "$Elements\n" +
+      std::to_string(cells.size() + 1) + "\n1 15 2 1 1 1\n";
+  for (const std::string& cell : cells) mesh += cell + "\n";
+  return mesh + "$EndElements\n";
+}
+
+std::string small_scene(const std::string& mesh, const std::string& section) {
+  return "units: SI\nbodies:\n  b:\n    fe: " + mesh +
+         "\n    material: {E: 70e9, nu: 0.3, rho: 2700}\n    sections: {part: " + section +
+         "}\n    ports: {root: {set: root}}\n    parent_port: root\n";
+}
+
 class CliBadInput : public Cli, public testing::WithParamInterface<BadInput> {};
 
 TEST_P(CliBadInput, EndsWithStatusTwoAndWritesNothing) {
@@ -240,6 +257,17 @@ TEST_P(CliBadInput, EndsWithStatusTwoAndWritesNothing) {
   folder_.write("garbage.msh", std::string("\x7f\x01\x00\xff\x80garbage\x00\x00", 14));
   const std::string good = text(folder_.path() / "beam_16.msh");
   folder_.write("truncated.msh", good.substr(0, good.size() / 2));
+  folder_.write("no_length.msh", small_mesh(1, {"2 1 2 2 1 1 2", "7 1 2 2 1 2 3", "4 1 2 2 1 3 4"}));
+  folder_.write("no_length.yaml", small_scene("no_length.msh", "{circle: 0.01}"));
+  folder_.write("apart.msh", small_mesh(1, {"2 1 2 2 1 1 2", "4 1 2 2 1 4 5"}));
+  folder_.write("apart.yaml", small_scene("apart.msh", "{circle: 0.01}"));
+  folder_.write("no_area.msh", small_mesh(2, {"8 2 2 2 1 1 2 4"}));
+  folder_.write("no_area.yaml", small_scene("no_area.msh", "{shell: 0.01}"));
+  folder_.write("loop.yaml",
+                "units: SI\nbodies:\n  a: &bar {rigid: {mass: 1, inertia: [1, 1, 1]}, "
+                "ports: {p: [0, 0, 0], q: [1, 0, 0]}}\n  b: *bar\njoints:\n"
+                "  one: {parent: a.q, child: b.p, weld: true}\n"
+                "  two: {parent: b.q, child: a.p, weld: true}\n");
   std::string arguments = bad.arguments;
   for (const auto& [word, value] : {std::pair(std::string("SCENE"), scene), {"FOLDER", folder_.path().string()}})
     for (std::size_t at = arguments.find(word); at != std::string::npos; at = arguments.find(word))
@@ -273,6 +301,18 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"unknown_ending", "frf SCENE --from push --to tip -o FOLDER/x.xls", "", "",
                  "written as .csv or .json"},
         BadInput{"missing_folder", "assemble SCENE -o FOLDER/absent/x.json", "", "", "cannot be written"},
+        BadInput{"zero_length", "reduce FOLDER/no_length.yaml --body b -o FOLDER/x.body.json", "", "",
+                 "no_length.msh: beam element 7: its length is zero.*Delete it"},
+        BadInput{"zero_area", "reduce FOLDER/no_area.yaml --body b -o FOLDER/x.body.json", "", "",
+                 "no_area.msh: triangle element 8: its area is zero.*Delete it"},
+        BadInput{"no_stiffness_path", "reduce FOLDER/apart.yaml --body b -o FOLDER/x.body.json", "", "",
+                 "no stiffness path to parent port 'root': node 4 ux.*Join this part"},
+        BadInput{"open_loop", "assemble FOLDER/loop.yaml -o FOLDER/x.json", "", "",
+                 "joint 'two' \\(b.q to a.p\\) does not close: gap 2 m.*Correct"},
+        BadInput{"unknown_port_of_a_joint", "assemble SCENE -o FOLDER/x.json", "ground: [beam.root]",
+                 "joints: {j: {parent: beam.tip, child: beam.rot, weld: true}}", "changed.yaml:10:.*no port 'rot'"},
+        BadInput{"held_and_reduced", "assemble SCENE -o FOLDER/x.json", "    damping: 0.01\n", "    fix: {left: all}\n",
+                 "changed.yaml:3:.*held to the inertial frame.*cannot be reduced.*ground"},
         BadInput{"no_units", "check SCENE", "units: SI\n", "", "beam_16.msh carries no units"},
         BadInput{"empty_band", "modes SCENE --band 5 5", "", "", "the band is empty"},
         BadInput{"bad_option", "modes SCENE --cuont 3", "", "", "cuont"}),
