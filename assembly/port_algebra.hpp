@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+
 #include "assembly/network.hpp"
 #include "titop/state_space.hpp"
 
@@ -15,9 +17,13 @@ struct PortAlgebra {
   double worst_condition = 1.0;  ///< of all channel inversions and feedback solves, equilibrated
 };
 
-/// Throws ModelError for loops (joint named) and for position or velocity outputs, NumericalError naming the channels
-/// where an inversion is not possible; each points to the second-order route.
+/// Loops are cut, and closed by inverting the channels of the cut (loop_closure.hpp). Throws ModelError for position or
+/// velocity outputs, NumericalError naming the channels where an inversion is not possible (redundant closure rows
+/// among them); each points to the second-order route.
 PortAlgebra port_algebra(const Network& network);
+
+/// Eigenvalues of A, balanced [rad/s].
+Eigen::VectorXcd poles(const PortAlgebra& system);
 
 /// Natural frequencies from the poles of A [rad/s], ascending: |λ| of each oscillating pair; real poles (overdamped or
 /// without stiffness) and double integrators are left out. The undamped ones when the network has no damping.

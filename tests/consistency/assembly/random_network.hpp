@@ -119,6 +119,34 @@ class RandomNetwork {
     return net;
   }
 
+  /// A tree with up to two joints more, each of which closes a loop, and now and then a second grounded port. About a
+  /// third are trees; a few are closed through bodies without enough modes to give way, so that rows are redundant.
+  Network scene() {
+    Network net = tree(true);
+    const int closures = chance(0.3) ? 0 : integer(1, 2), last = static_cast<int>(net.bodies.size()) - 1;
+    for (int k = 0; k < closures; ++k) {
+      const int a = integer(0, last), b = (a + integer(1, last)) % (last + 1);
+      ReducedBody& outer = net.bodies[static_cast<std::size_t>(b)];
+      const double mass = outer.D(0, 0);
+      const PortRef from = port(net, a);
+      Joint j = joint("loop" + std::to_string(k), from, {b, static_cast<int>(outer.ports.size())});
+      const bool outward = j.parent.body == a;  // child axes = parent axes · Rot(axis, angle)
+      const Placement p = place(net);
+      const auto ia = static_cast<std::size_t>(a), ib = static_cast<std::size_t>(b);
+      const reduction::BodyPort& inner = net.bodies[ia].ports[static_cast<std::size_t>(from.port)];
+      const Mat3 turn = Eigen::AngleAxisd(outward ? j.angle : -j.angle, j.axis).toRotationMatrix();
+      outer.ports.push_back(
+          {"loop" + std::to_string(k), p.R[ib].transpose() * (p.origin[ia] + p.R[ia] * inner.position - p.origin[ib]),
+           p.R[ib].transpose() * p.R[ia] * inner.axes * turn, matrix(6, outer.n()) / std::sqrt(mass)});
+      net.joints.push_back(j);
+      if (j.kind != JointKind::revolute) continue;
+      net.inputs.push_back({j.name, {}, 0, static_cast<int>(net.joints.size()) - 1});
+      net.outputs.push_back({j.name, Quantity::acceleration, {}, 0, static_cast<int>(net.joints.size()) - 1});
+    }
+    if (chance(0.2)) net.ground.push_back(port(net, integer(0, last)));
+    return net;
+  }
+
  private:
   // every revolute joint and a few ports get an input and an acceleration output
   void channels(Network& net) {

@@ -1,0 +1,384 @@
+#include "assembly/loop_closure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "assembly/kinematics.hpp"
+#include "assembly/rank.hpp"
+#include "fem/error.hpp"
+
+namespace tenon::assembly {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using fem::Mat6;
+using fem::Mat6X;
+using titop::StateSpace;
+
+namespace {
+
+constexpr const char* direction_names[6] = {"translation x", "translation y", "translation z",
+                                            "rotation x",    "rotation y",    "rotation z"};
+constexpr double nothing = 1e-12;  // of the greatest of its kind: a relative motion that nothing can cause
+
+// Coordinates of the tree: six of each free root, the angle of each revolute joint, η of each body; then the angles of
+// the revolute cuts.
+struct Coordinates {
+  std::vector<int> root, joint, body;  // first coordinate of each, −1 where there is none
+  std::vector<int> cut;
+  Index size = 0;
+  VectorXd scale;  // natural size of each
+};
+
+Coordinates number(const Network& network, const OpenLoops& open, const PortTree& tree) {
+  Coordinates c;
+  const double length = tree.placement.size > 0.0 ? tree.placement.size : 1.0;
+  std::vector<double> scale;
+  const auto add = [&](int& first, Index count, double size) {
+    first = static_cast<int>(scale.size());
+    scale.insert(scale.end(), static_cast<std::size_t>(count), size);
+  };
+  c.root.assign(tree.branches.size(), -1);
+  c.joint.assign(open.network.joints.size(), -1);
+  c.body.assign(network.bodies.size(), -1);
+  c.cut.assign(open.closures.size(), -1);
+  for (std::size_t k = 0; k < tree.branches.size(); ++k) {
+    const Branch& branch = tree.branches[k];
+    int rotations = 0;
+    if (branch.parent < 0 && branch.outer_port < 0) {
+      add(c.root[k], 3, 1.0);
+      add(rotations, 3, 1.0 / length);
+    }
+    const auto j = static_cast<std::size_t>(std::max(branch.joint, 0));
+    if (branch.joint >= 0 && open.network.joints[j].kind == JointKind::revolute) add(c.joint[j], 1, 1.0 / length);
+    const auto b = static_cast<std::size_t>(branch.body);
+    const ReducedBody& body = tree.bodies[b];
+    c.body[b] = static_cast<int>(scale.size());
+    for (int m = 0; m < body.n(); ++m) {  // η that moves the most mobile port by about 1 m
+      double mobility = body.D(0, 0) > 0.0 ? 1e-3 / std::sqrt(body.D(0, 0)) : 1e-3;
+      for (const reduction::BodyPort& port : body.ports)
+        mobility = std::max({mobility, port.Phi.col(m).head<3>().cwiseAbs().maxCoeff(),
+                             length * port.Phi.col(m).tail<3>().cwiseAbs().maxCoeff()});
+      scale.push_back(1.0 / mobility);
+    }
+  }
+  for (std::size_t k = 0; k < open.closures.size(); ++k)
+    if (const int j = open.closures[k].joint;
+        j >= 0 && network.joints[static_cast<std::size_t>(j)].kind == JointKind::revolute)
+      add(c.cut[k], 1, 1.0 / length);
+  c.size = static_cast<Index>(scale.size());
+  c.scale = Eigen::Map<const VectorXd>(scale.data(), c.size);
+  return c;
+}
+
+// Motions of the bodies' references over the coordinates, world axes, from the root to the tips:
+//   x_k = τ(port) x_parent + R Φ η_parent + [0; axis] δθ.
+class Motions {
+ public:
+  Motions(const Network& network, const PortTree& tree, const Coordinates& c) : tree_(tree), c_(c) {
+    x_.assign(network.bodies.size(), Mat6X::Zero(6, c.size));
+    for (std::size_t k = 0; k < tree.branches.size(); ++k) {
+      const Branch& branch = tree.branches[k];
+      Mat6X& x = x_[static_cast<std::size_t>(branch.body)];
+      if (branch.parent < 0) {
+        if (branch.outer_port < 0) x.middleCols<6>(c.root[k]).setIdentity();
+        continue;
+      }
+      x = port({tree.branches[static_cast<std::size_t>(branch.parent)].body, branch.inner_port});
+      if (branch.joint < 0) continue;
+      const auto j = static_cast<std::size_t>(branch.joint);
+      if (const int at = c.joint[j]; at >= 0)  // the joint's child turns against its parent
+        x.col(at).tail<3>() += (branch.outward ? 1.0 : -1.0) * joint_axis(network, tree.placement, network.joints[j]);
+    }
+  }
+
+  Mat6X port(const PortRef& ref) const {
+    const auto b = static_cast<std::size_t>(ref.body);
+    const ReducedBody& body = tree_.bodies[b];
+    const MatrixXd rows = port_rows(body, ref.port, tree_.placement.R[b]);
+    Mat6X motion = rows.leftCols<6>() * x_[b];
+    motion.middleCols(c_.body[b], body.n()) += rows.rightCols(body.n());
+    return motion;
+  }
+
+ private:
+  const PortTree& tree_;
+  const Coordinates& c_;
+  std::vector<Mat6X> x_;
+};
+
+// Axes of a cut: columns; the third is that of a revolute joint.
+Mat6 axes_of(const Network& network, const PortTree& tree, const Closure& closure) {
+  Mat6 axes = Mat6::Identity();
+  if (closure.joint < 0) return axes;
+  const Joint& joint = network.joints[static_cast<std::size_t>(closure.joint)];
+  if (joint.kind != JointKind::revolute) return axes;
+  const Vec3 axis = joint_axis(network, tree.placement, joint), e1 = axis.unitOrthogonal();
+  axes.bottomRightCorner<3, 3>() << e1, axis.cross(e1), axis;
+  return axes;
+}
+
+bool revolute(const Network& network, const Closure& closure) {
+  return closure.joint >= 0 && network.joints[static_cast<std::size_t>(closure.joint)].kind == JointKind::revolute;
+}
+
+std::string cut_name(const Network& network, const Closure& closure) {
+  return closure.joint >= 0 ? fmt::format("joint '{}'", network.joints[static_cast<std::size_t>(closure.joint)].name)
+                            : "ground of " + name(network, closure.ground);
+}
+
+// The open tree with inputs and outputs of the closed network, then six wrench channels of each cut (on its child side,
+// reaction on the other) and six relative accelerations.
+StateSpace with_cuts(const Network& network, const OpenLoops& open, const PortTree& tree) {
+  const auto cuts = static_cast<Index>(open.closures.size());
+  const auto nu = static_cast<Index>(network.inputs.size()), ny = static_cast<Index>(network.outputs.size());
+  MatrixXd Ru = MatrixXd::Zero(tree.ss.D.cols(), nu + 6 * cuts), Ly = MatrixXd::Zero(ny + 6 * cuts, tree.ss.D.rows());
+  for (std::size_t k = 0; k < open.inputs.size(); ++k) Ru(static_cast<Index>(k), open.inputs[k]) = 1.0;
+  for (std::size_t k = 0; k < open.outputs.size(); ++k) Ly(open.outputs[k], static_cast<Index>(k)) = 1.0;
+  auto u = static_cast<Index>(open.inputs.size()), y = static_cast<Index>(open.outputs.size());
+  std::vector<titop::Channel> in, out;
+  for (const Input& input : network.inputs) in.push_back(channel(input));
+  for (const Output& output : network.outputs) out.push_back(channel(output));
+  for (Index k = 0; k < cuts; ++k) {
+    const Closure& closure = open.closures[static_cast<std::size_t>(k)];
+    const Mat6 axes = axes_of(network, tree, closure);
+    Ru.block<6, 6>(u, nu + 6 * k) = axes;
+    Ly.block<6, 6>(ny + 6 * k, y) = axes.transpose();
+    u += 6, y += 6;
+    if (closure.joint >= 0) {
+      Ru.block<6, 6>(u, nu + 6 * k) = -axes;
+      Ly.block<6, 6>(ny + 6 * k, y) = -axes.transpose();
+      u += 6, y += 6;
+    }
+    const bool turns = revolute(network, closure);
+    for (int d = 0; d < 6; ++d) {
+      const std::string what = turns && d == 5   ? "rotation about the axis"
+                               : turns && d >= 3 ? "rotation across the axis"
+                                                 : direction_names[d];
+      in.push_back({fmt::format("{}, {}", cut_name(network, closure), what), d < 3 ? "N" : "N m"});
+      out.push_back({in.back().name, d < 3 ? "m/s²" : "rad/s²"});
+    }
+    if (!turns) continue;  // what works on the angle of the cut itself
+    for (std::size_t i = 0; i < network.inputs.size(); ++i)
+      if (network.inputs[i].joint == closure.joint) Ru.col(static_cast<Index>(i)) += Ru.col(nu + 6 * k + 5);
+    for (std::size_t i = 0; i < network.outputs.size(); ++i)
+      if (network.outputs[i].joint == closure.joint) Ly.row(static_cast<Index>(i)) += Ly.row(ny + 6 * k + 5);
+  }
+  return titop::gains(Ly, tree.ss, Ru, std::move(out), std::move(in));
+}
+
+// The spring, damper and rotor of a revolute cut: torque −k δθ − f δθ̇ − j δθ̈ about its axis.
+StateSpace with_drive(const StateSpace& ss, const Joint& joint, Index in, Index out) {
+  const StateSpace drive = drive_states(joint);
+  const Index states = drive.A.rows(), nu = ss.D.cols(), ny = ss.D.rows();
+  if (states == 0 && joint.inertia == 0.0) return ss;
+  const StateSpace all = titop::append({ss, drive});
+  titop::Wiring w{MatrixXd::Zero(all.D.cols(), all.D.rows()),
+                  MatrixXd::Identity(all.D.cols(), nu),
+                  MatrixXd::Identity(ny, all.D.rows()),
+                  MatrixXd::Zero(ny, nu),
+                  ss.inputs,
+                  ss.outputs};
+  w.F(in, out) = -joint.inertia;
+  if (states > 0) {
+    w.F(in, ny + states - 1) = -joint.damping;
+    if (states > 1) w.F(in, ny) = -joint.stiffness;
+    w.F(nu, out) = 1.0;
+  }
+  return titop::connect(all, w).ss;
+}
+
+// Rows of the relative motion at a cut over the coordinates.
+Mat6X relative_rows(const Network& network, const PortTree& tree, const Motions& motions, const Closure& closure) {
+  if (closure.joint < 0) return motions.port(closure.ground);
+  const Joint& joint = network.joints[static_cast<std::size_t>(closure.joint)];
+  return axes_of(network, tree, closure).transpose() * (motions.port(joint.child) - motions.port(joint.parent));
+}
+
+// Orthonormal basis of the motions of the coordinates `kept` that the closure rows allow when all the other coordinates
+// follow freely: null(N J_kept) with N J_free = 0.
+MatrixXd allowed(const MatrixXd& J, const std::vector<int>& kept) {
+  std::vector<int> free;
+  const double largest = J.size() > 0 ? J.cwiseAbs().maxCoeff() : 0.0;
+  for (int c = 0; c < J.cols(); ++c)
+    if (std::find(kept.begin(), kept.end(), c) == kept.end() && J.col(c).norm() > nothing * largest) free.push_back(c);
+  MatrixXd rows = J(Eigen::all, kept);
+  if (rows.size() == 0) return MatrixXd::Identity(rows.cols(), rows.cols());
+  VectorXd lengths = J.rowwise().norm();
+  if (!free.empty()) {
+    const MatrixXd F = J(Eigen::all, free).transpose();
+    rows = row_space(F, F.rowwise().norm(), "the closure of the loops").null.transpose() * rows;
+    lengths = VectorXd::Constant(rows.rows(), largest);
+  }
+  if (rows.rows() == 0) return MatrixXd::Identity(rows.cols(), rows.cols());
+  return row_space(rows, lengths, "the closure of the loops").null;
+}
+
+}  // namespace
+
+OpenLoops open_loops(const Network& network) {
+  const Placement placement = place(network);
+  OpenLoops open{network, {}, {}, {}};
+  Network& tree = open.network;
+  // the pieces: bodies joined, each named by its first
+  std::vector<int> piece(network.bodies.size());
+  std::iota(piece.begin(), piece.end(), 0);
+  for (const int k : placement.order)
+    if (const int j = placement.tree_joint[static_cast<std::size_t>(k)]; j >= 0) {
+      const Joint& joint = network.joints[static_cast<std::size_t>(j)];
+      const int inner = joint.parent.body == k ? joint.child.body : joint.parent.body;
+      piece[static_cast<std::size_t>(k)] = piece[static_cast<std::size_t>(inner)];
+    }
+  tree.ground.clear();
+  std::vector<const PortRef*> first(network.bodies.size(), nullptr);
+  for (const PortRef& ref : network.ground) {
+    const PortRef*& held = first[static_cast<std::size_t>(piece[static_cast<std::size_t>(ref.body)])];
+    if (!held) {
+      held = &ref;
+      tree.ground.push_back(ref);
+    } else if (held->body != ref.body || held->port != ref.port) {
+      open.closures.push_back({-1, ref});
+    }
+  }
+  for (const int j : placement.closing_joints) open.closures.push_back({j, {}});
+  if (open.closures.empty()) return open;
+
+  std::vector<int> place_of(network.joints.size(), -1);  // of each joint in the open network
+  tree.joints.clear();
+  for (std::size_t j = 0; j < network.joints.size(); ++j) {
+    if (std::find(placement.closing_joints.begin(), placement.closing_joints.end(), static_cast<int>(j)) !=
+        placement.closing_joints.end())
+      continue;
+    place_of[j] = static_cast<int>(tree.joints.size());
+    tree.joints.push_back(network.joints[j]);
+  }
+  const auto keep = [&](const auto& all, auto& kept, std::vector<int>& numbers) {
+    kept.clear();
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      auto item = all[i];
+      if (item.joint && place_of[static_cast<std::size_t>(*item.joint)] < 0) continue;
+      if (item.joint) item.joint = place_of[static_cast<std::size_t>(*item.joint)];
+      numbers.push_back(static_cast<int>(i));
+      kept.push_back(std::move(item));
+    }
+  };
+  keep(network.inputs, tree.inputs, open.inputs);
+  keep(network.outputs, tree.outputs, open.outputs);
+  const auto probe = [&tree](const PortRef& at) {
+    for (int d = 0; d < 6; ++d) {
+      tree.inputs.push_back({.name = "cut", .at = at, .direction = d, .joint = {}});
+      tree.outputs.push_back(
+          {.name = "cut", .quantity = Quantity::acceleration, .at = at, .direction = d, .joint = {}});
+    }
+  };
+  for (const Closure& closure : open.closures) {
+    if (closure.joint < 0) {
+      probe(closure.ground);
+      continue;
+    }
+    const Joint& joint = network.joints[static_cast<std::size_t>(closure.joint)];
+    probe(joint.child);
+    probe(joint.parent);
+  }
+  return open;
+}
+
+PortAlgebra close_loops(const Network& network, const OpenLoops& open, const PortTree& tree) {
+  const auto nu = static_cast<int>(network.inputs.size()), ny = static_cast<int>(network.outputs.size());
+  StateSpace ss = with_cuts(network, open, tree);
+  std::vector<PortState> states = tree.states;
+  const Coordinates c = number(network, open, tree);
+  const Motions motions(open.network, tree, c);
+
+  // the channels that are held, and their rows over the coordinates
+  const double length = tree.placement.size > 0.0 ? tree.placement.size : 1.0;
+  // accelerations by wrenches at the cuts: of their sides, translations and rotations; and of one against the other
+  double size[2] = {0.0, 0.0};
+  const auto probes = static_cast<Index>(open.outputs.size());
+  for (Index r = probes; r < tree.ss.D.rows(); ++r) {
+    double& kind = size[(r - probes) % 6 / 3];
+    kind = std::max(
+        kind, tree.ss.D.row(r).tail(tree.ss.D.cols() - static_cast<Index>(open.inputs.size())).cwiseAbs().maxCoeff());
+  }
+  const auto row_size = [&](Index row) { return ss.D.row(row).tail(ss.D.cols() - nu).cwiseAbs().maxCoeff(); };
+  std::vector<int> held;
+  MatrixXd J = MatrixXd::Zero(6 * static_cast<Index>(open.closures.size()), c.size);
+  Index rows = 0;
+  for (std::size_t k = 0; k < open.closures.size(); ++k) {
+    const Mat6X relative = relative_rows(network, tree, motions, open.closures[k]) * c.scale.asDiagonal();
+    const bool turns = revolute(network, open.closures[k]);
+    for (int d = 0; d < 6; ++d) {
+      const int channel = 6 * static_cast<int>(k) + d;
+      const double unit = d < 3 ? 1.0 : length;
+      if (turns && d == 5) {  // its angle: δθ = relative rotation
+        J.row(rows) = unit * relative.row(d);
+        J(rows++, c.cut[k]) = -unit * c.scale[c.cut[k]];
+        continue;
+      }
+      if (row_size(ny + channel) <= nothing * size[d / 3]) continue;  // nothing moves there
+      held.push_back(channel);
+      J.row(rows++) = unit * relative.row(d);
+    }
+    if (!turns) continue;
+    const int j = open.closures[k].joint;
+    const Joint& joint = network.joints[static_cast<std::size_t>(j)];
+    const Index before = ss.A.rows();
+    ss = with_drive(ss, joint, nu + 6 * static_cast<Index>(k) + 5, ny + 6 * static_cast<Index>(k) + 5);
+    const Index added = ss.A.rows() - before;
+    for (Index s = 0; s < added; ++s)
+      states.push_back({-1, static_cast<int>(open.network.joints.size() + k), 0, s + 1 == added, 1.0});
+  }
+  J.conservativeResize(rows, Eigen::NoChange);
+
+  double condition = tree.worst_condition;
+  if (!held.empty()) {  // a system of the held channels alone beside the network's own
+    std::vector<int> in(static_cast<std::size_t>(nu)), out(static_cast<std::size_t>(ny)), first(held.size());
+    std::iota(in.begin(), in.end(), 0);
+    std::iota(out.begin(), out.end(), 0);
+    for (const int channel : held) in.push_back(nu + channel), out.push_back(ny + channel);
+    // channels to invert stand first, in inputs and in outputs alike
+    std::rotate(in.begin(), in.begin() + nu, in.end());
+    std::rotate(out.begin(), out.begin() + ny, out.end());
+    std::iota(first.begin(), first.end(), 0);
+    const titop::Inversion inverse = titop::invert_channels(titop::subsystem(ss, out, in), first);
+    condition = std::max(condition, inverse.condition);
+    std::vector<int> keep_in(static_cast<std::size_t>(nu)), keep_out(static_cast<std::size_t>(ny));
+    std::iota(keep_in.begin(), keep_in.end(), static_cast<int>(held.size()));
+    std::iota(keep_out.begin(), keep_out.end(), static_cast<int>(held.size()));
+    ss = titop::subsystem(inverse.ss, keep_out, keep_in);
+  } else {
+    std::vector<int> in(static_cast<std::size_t>(nu)), out(static_cast<std::size_t>(ny));
+    std::iota(in.begin(), in.end(), 0);
+    std::iota(out.begin(), out.end(), 0);
+    ss = titop::subsystem(ss, out, in);
+  }
+
+  // x = S Z z: S scales coordinates to states, Z spans what the loops allow of positions and of rates
+  const auto coordinate = [&](const PortState& s) {
+    if (s.body >= 0) return c.body[static_cast<std::size_t>(s.body)] + s.mode;
+    const auto j = static_cast<std::size_t>(s.joint);
+    return j < c.joint.size() ? c.joint[j] : c.cut[j - c.joint.size()];
+  };
+  std::vector<int> at[2], kept[2];  // positions, rates: states and their coordinates
+  VectorXd S(ss.A.rows());
+  for (std::size_t s = 0; s < states.size(); ++s) {
+    at[states[s].rate].push_back(static_cast<int>(s));
+    kept[states[s].rate].push_back(coordinate(states[s]));
+    S[static_cast<Index>(s)] = states[s].scale * c.scale[kept[states[s].rate].back()];
+  }
+  const MatrixXd Z0 = allowed(J, kept[0]), Z1 = allowed(J, kept[1]);
+  MatrixXd Z = MatrixXd::Zero(ss.A.rows(), Z0.cols() + Z1.cols());
+  Z(at[0], Eigen::seqN(0, Z0.cols())) = Z0;
+  Z(at[1], Eigen::seqN(Z0.cols(), Z1.cols())) = Z1;
+  const MatrixXd out = Z.transpose() * S.cwiseInverse().asDiagonal(), in = S.asDiagonal() * Z;
+  ss.A = (out * ss.A * in).eval();
+  ss.B = (out * ss.B).eval();
+  ss.C = (ss.C * in).eval();
+  return {std::move(ss), condition};
+}
+
+}  // namespace tenon::assembly

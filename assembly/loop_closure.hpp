@@ -1,0 +1,33 @@
+#pragma once
+
+#include <vector>
+
+#include "assembly/port_algebra.hpp"
+#include "assembly/port_tree.hpp"
+
+namespace tenon::assembly {
+
+/// A cut of a loop: the joint that closes it, or a grounded port beyond the first of its piece.
+struct Closure {
+  int joint = -1;
+  PortRef ground;  ///< with joint < 0
+};
+
+/// A network cut open to a tree. Its last inputs and outputs are six forces and six accelerations, world axes, at every
+/// port of a cut: two ports of a joint (child, then parent), one of a grounded port.
+struct OpenLoops {
+  Network network;
+  std::vector<Closure> closures;
+  std::vector<int> inputs, outputs;  ///< of the closed network, that the open one has: their numbers, in its order
+};
+OpenLoops open_loops(const Network& network);
+
+/// Closes the loops of a tree's port model as section 2.2 of the TITOP paper does: the wrench that a cut passes is the
+/// input, the relative acceleration of its two sides the output; the held channels are inverted, and what is prescribed
+/// then is zero. A relative acceleration that nothing can cause (across the plane of a planar mechanism) is held
+/// already, and left alone. States are confined to the motions that the loops allow, by an orthonormal basis of the
+/// null space of the closure rows, so that no integrators of prescribed motion remain. Throws NumericalError, naming
+/// the channels, where closure rows are redundant.
+PortAlgebra close_loops(const Network& network, const OpenLoops& open, const PortTree& tree);
+
+}  // namespace tenon::assembly
