@@ -15,6 +15,8 @@ using fem::Mat6;
 
 namespace {
 
+constexpr double unresolved = 1e-10;  // of D(i, i): a residual mass with fewer than six digits
+
 std::vector<int> six_from(int first) {
   std::vector<int> channels(6);
   std::iota(channels.begin(), channels.end(), first);
@@ -44,13 +46,19 @@ MatrixXd stacked_shapes(const reduction::ReducedBody& body, const std::vector<in
   return Phi;
 }
 
-// −D + LᵀL, the residual mass that the kept modes leave at P (negative); entries that are round-off of the difference
-// are exact zeros, so that nobody inverts them.
+// −D + LᵀL, the residual mass that the kept modes leave at P (negative). A diagonal entry with fewer than six digits
+// left of the difference is an exact zero with its row and column, so that nobody inverts it; other entries when
+// round-off.
 Mat6 residual_mass(const reduction::ReducedBody& body) {
   Mat6 residual = -body.D + body.L.transpose() * body.L;
   for (int i = 0; i < 6; ++i)
     for (int j = 0; j < 6; ++j)
       if (std::abs(residual(i, j)) <= 1e-14 * std::sqrt(std::abs(body.D(i, i) * body.D(j, j)))) residual(i, j) = 0.0;
+  for (int i = 0; i < 6; ++i)
+    if (std::abs(residual(i, i)) <= unresolved * body.D(i, i)) {
+      residual.row(i).setZero();
+      residual.col(i).setZero();
+    }
   return residual;
 }
 

@@ -21,7 +21,8 @@ struct PortModel {
 
 /// Port model of a cantilever body; `children` selects the ports that get channels (default: all but the parent).
 /// Rows of Phi that are round-off beside the other rows of their kind (below 1e-14 of the largest) are exact zeros
-/// here: such a channel has D(i, i) = 0 and invert_channels refuses it by name. Throws ModelError for a free-free body:
+/// here, and so is a residual mass below 1e-10 of D: such a channel has D(i, i) = 0 and invert_channels refuses it by
+/// name. Throws ModelError for a free-free body:
 /// reduction::rebase it to the port it hangs by.
 PortModel port_model(const reduction::ReducedBody& body);
 PortModel port_model(const reduction::ReducedBody& body, const std::vector<int>& children);
