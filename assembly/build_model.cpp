@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "assembly/build.hpp"
+#include "assembly/build_beam.hpp"
 #include "assembly/scene/mesh_nodes.hpp"
 #include "assembly/scene/mesh_sections.hpp"
 #include "fem/formats/nastran.hpp"
@@ -92,9 +93,11 @@ fem::Model read_deck(const FeSource& fe, fem::Mesh& mesh) {
 }  // namespace
 
 fem::Model build_model(const SceneBody& body) {
+  if (const auto* beam = std::get_if<BeamSource>(&body.source)) return beam_model(body, *beam);
   const auto* fe = std::get_if<FeSource>(&body.source);
   if (!fe)
-    throw InputError(body.place, fmt::format("body '{}' has no mesh", body.name), "Only a body with `fe` has a model");
+    throw InputError(body.place, fmt::format("body '{}' has no mesh", body.name),
+                     "Only a body with `fe` or `beam` has a model");
   fem::Mesh mesh;
   fem::Model model;
   if (is_deck(fe->file)) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "assembly/build.hpp"
+#include "assembly/build_beam.hpp"
+#include "assembly/close_angles.hpp"
 #include "reduction/body_file.hpp"
 
 namespace tenon::assembly {
@@ -109,6 +111,7 @@ class Resolver {
 ReducedBody build_body(const SceneBody& body, const BodyPlan& plan, const reduction::Progress& progress) {
   if (const auto* rigid = std::get_if<RigidSource>(&body.source)) return make_rigid(body, *rigid);
   if (const auto* fe = std::get_if<FeSource>(&body.source)) return reduce_fe(body, *fe, plan, progress);
+  if (const auto* beam = std::get_if<BeamSource>(&body.source)) return make_beam(body, *beam, plan, progress);
   return read_reduced(body, std::get<ReducedSource>(body.source));
 }
 
@@ -141,7 +144,7 @@ Network connect(const Scene& scene, std::vector<ReducedBody> bodies) {
       made.at = resolve.port_or_body(output.at);
     network.outputs.push_back(std::move(made));
   }
-  return network;
+  return close_angles(std::move(network));
 }
 
 Network build_network(const Scene& scene, const Plan& plan, const reduction::Progress& progress) {

@@ -146,6 +146,12 @@ void check(const Network& network) {
 }
 
 Placement place(const Network& network) {
+  Placement placement = place_open(network);
+  for (const int j : placement.closing_joints) check_closure(network, placement, at(network.joints, j));
+  return placement;
+}
+
+Placement place_open(const Network& network) {
   check(network);
   const std::size_t n = network.bodies.size();
   std::vector<std::vector<int>> joints_of(n);
@@ -183,7 +189,6 @@ Placement place(const Network& network) {
     }
   }
   placement.size = scene_size(network, placement);
-  for (const int j : placement.closing_joints) check_closure(network, placement, at(network.joints, j));
   return placement;
 }
 

@@ -28,6 +28,7 @@ struct Joint {
   JointKind kind = JointKind::weld;
   Vec3 axis = Vec3::UnitZ();  ///< unit vector in the parent port's axes (revolute)
   double angle = 0.0;         ///< [rad]
+  bool follows = false;       ///< the loops decide the angle, near the one given: close_angles() finds it
   double stiffness = 0.0;     ///< about the axis [N m/rad]
   double damping = 0.0;       ///< about the axis [N m s/rad]
   double inertia = 0.0;       ///< of the drive, acts on the relative rotation [kg m²]
@@ -89,6 +90,8 @@ void check(const Network& network);
 /// root being the world frame. Throws ModelError when a loop does not close within 1e-6 of the size or 1e-6 rad (gap
 /// and angle stated), or when check() does.
 Placement place(const Network& network);
+/// The same without a look at the loops: closing joints may gape.
+Placement place_open(const Network& network);
 
 const ReducedBody& body_of(const Network& network, const PortRef& ref);
 const reduction::BodyPort& port_of(const Network& network, const PortRef& ref);

@@ -19,8 +19,8 @@ struct RowSpace {
 
 /// Householder QR of the transpose with pivoting among the rows. `lengths` are the rows' lengths before they met the
 /// basis they are written in: a row that the basis annihilates is then seen as zero, not as noise of length one.
-/// Pivots up to max(rows, columns)·ε count as zero, and so do those up to 1000 times that when the next one is 1e6 times
-/// larger. Throws NumericalError, naming `what`, when there is no such gap: the rank cannot be decided.
+/// Pivots up to max(rows, columns)·ε count as zero, and so do those up to 1000 times that when the next one is 1e6
+/// times larger. Throws NumericalError, naming `what`, when there is no such gap: the rank cannot be decided.
 RowSpace row_space(const Eigen::MatrixXd& rows, const Eigen::VectorXd& lengths, const std::string& what);
 
 /// The rank alone, by the same decision.

@@ -80,6 +80,17 @@ struct ReducedSource {
   std::filesystem::path file;
 };
 
+/// A straight uniform beam without a mesh: ports P at `from`, C at `to`.
+struct BeamSource {
+  enum class Model { fe, polynomial, clamped_free };
+  Model model = Model::fe;
+  Vec3 from = Vec3::Zero(), to = Vec3::UnitX();  ///< [m]
+  SceneSection section;                          ///< a beam's
+  int elements = 32;                             ///< fe
+  int modes = 4;                                 ///< clamped_free: a bending plane
+  bool planar = false;  ///< moves in its x-y plane alone (axis and orientation span it); rigid out of it
+};
+
 struct SceneReduction {
   enum class Kind { automatic, rigid, chosen };
   Kind kind = Kind::automatic;
@@ -91,12 +102,17 @@ struct SceneReduction {
 
 struct SceneBody {
   std::string name;
-  std::variant<RigidSource, FeSource, ReducedSource> source;
+  std::variant<RigidSource, FeSource, ReducedSource, BeamSource> source;
   std::vector<ScenePort> ports;  ///< of a reduced body: none, they stand in its file
   std::string parent_port;       ///< "" for a reduced body that keeps its own
   double damping = 0.0;
   SceneReduction reduction;
   Place place;
+
+  /// Has a finite-element model of its own.
+  bool has_model() const {
+    return std::holds_alternative<FeSource>(source) || std::holds_alternative<BeamSource>(source);
+  }
 };
 
 /// "body.port", or a body or a joint alone where the grammar allows it.

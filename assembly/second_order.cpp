@@ -125,26 +125,28 @@ SystemModes modes(const SecondOrderSystem& s) {
   return m;
 }
 
-MatrixXcd response(const SecondOrderSystem& s, double omega) {
+MatrixXcd motion(const SecondOrderSystem& s, double omega) {
   if (omega == 0.0 && s.rigid > 0)
     throw ModelError(fmt::format("a network with {} rigid motions has no static response", s.rigid),
                      "Ask at a frequency above zero, or ground the network");
-  const Index n = s.M.rows();
+  if (s.M.rows() == 0) return MatrixXcd::Zero(0, s.B.cols());
   // scaled by the size of each diagonal entry, K + ω²M + ωC
   const VectorXd scale =
       (s.K.diagonal() + omega * omega * s.M.diagonal() + std::abs(omega) * s.C.diagonal()).cwiseSqrt().cwiseInverse();
   const std::complex<double> j(0.0, 1.0);
   MatrixXcd Z = scale.asDiagonal() * (j * omega * s.C) * scale.asDiagonal();
   Z.diagonal() += scale.cwiseAbs2().cwiseProduct(s.K.diagonal() - omega * omega * s.M.diagonal());
-  const MatrixXd B = scale.asDiagonal() * s.B;
-  const MatrixXcd out =
-      (s.C_position + j * omega * s.C_velocity - omega * omega * s.C_acceleration) * scale.asDiagonal();
-  if (n == 0) return MatrixXcd::Zero(out.rows(), B.cols());
   const Eigen::PartialPivLU<MatrixXcd> lu(Z);
   if (!(lu.matrixLU().diagonal().cwiseAbs().minCoeff() > 0.0))
     throw NumericalError(fmt::format("the response at {} rad/s does not exist, it is an undamped resonance", omega),
                          0.0, "Ask beside it, or give the bodies damping");
-  return out * lu.solve(B.cast<std::complex<double>>());
+  const MatrixXd B = scale.asDiagonal() * s.B;
+  return scale.asDiagonal() * lu.solve(B.cast<std::complex<double>>());
+}
+
+MatrixXcd response(const SecondOrderSystem& s, double omega) {
+  const std::complex<double> j(0.0, 1.0);
+  return (s.C_position + j * omega * s.C_velocity - omega * omega * s.C_acceleration) * motion(s, omega);
 }
 
 namespace {

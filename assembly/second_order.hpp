@@ -47,6 +47,9 @@ SystemModes modes(const SecondOrderSystem& system);
 /// ModelError at ω = 0 when there are rigid motions, NumericalError at an undamped resonance.
 Eigen::MatrixXcd response(const SecondOrderSystem& system, double omega);
 
+/// Motion ξ of the same, a column for each unit input.
+Eigen::MatrixXcd motion(const SecondOrderSystem& system, double omega);
+
 /// First-order form with named inputs and outputs; states [modal positions; modal velocities] (mass-normalised), rigid
 /// modes as exact double integrators. Motions without mass follow the inputs statically; throws ModelError, naming the
 /// output, where that makes a velocity or an acceleration improper, and when they are damped.

@@ -20,6 +20,7 @@ class Materials {
 
 SceneSection read_section(const Member& entry, const Value* body_material, const Materials& materials,
                           const Units& units);
+BeamSource read_beam(const Value& map, const Materials& materials, const Units& units);
 SceneBody read_body(const Member& entry, const std::filesystem::path& folder, const Materials& materials,
                     const Units& units);
 Units read_units(const Value& document, const std::filesystem::path& file);

@@ -164,7 +164,7 @@ SceneBody read_body(const Member& entry, const std::filesystem::path& folder, co
   SceneBody body;
   body.name = entry.key;
   body.place = entry.place;
-  const std::string kind = one_of(map, {"rigid", "fe", "reduced"}, what);
+  const std::string kind = one_of(map, {"rigid", "fe", "reduced", "beam"}, what);
 
   if (kind == "rigid") {
     refuse(map, {"material", "sections", "beam_mass", "fix", "masses", "ignore", "allow", "damping", "reduction"},
@@ -176,6 +176,15 @@ SceneBody read_body(const Member& entry, const std::filesystem::path& folder, co
     body.source = source;
   } else if (kind == "fe") {
     body.source = read_fe(entry, folder, materials, units);
+  } else if (kind == "beam") {
+    refuse(map, {"material", "sections", "beam_mass", "fix", "masses", "ignore", "allow", "ports"},
+           "a beam, which says it itself and has the ports P and C");
+    const BeamSource beam = read_beam(*map.find("beam"), materials, units);
+    body.ports = {{.name = "P", .where = {}, .place = entry.place}, {.name = "C", .where = {}, .place = entry.place}};
+    body.ports[0].where.point = beam.from;
+    body.ports[1].where.point = beam.to;
+    body.parent_port = "P";
+    body.source = beam;
   } else {
     refuse(map,
            {"material", "sections", "beam_mass", "fix", "masses", "ignore", "allow", "damping", "reduction", "ports"},

@@ -66,13 +66,18 @@ SceneJoint read_joint(const Member& entry, const Scene& scene) {
     throw InputError(map.find("child")->place, fmt::format("{} joins body '{}' to itself", what, joint.child.body),
                      "Name ports of two bodies");
   if (one_of(map, {"weld", "revolute"}, what) == "weld") {
-    refuse(map, {"angle", "stiffness", "damping", "inertia"}, "a weld");
+    refuse(map, {"angle", "near", "stiffness", "damping", "inertia"}, "a weld");
     if (!truth(*map.find("weld"))) throw InputError(map.find("weld")->place, "a joint that is no weld", "Write true");
     return joint;
   }
   joint.joint.kind = JointKind::revolute;
   joint.joint.axis = axis(*map.find("revolute"));
   if (const Value* at_rest = map.find("angle")) joint.joint.angle = angle(*at_rest);
+  if (const Value* near = map.find("near")) {
+    refuse(map, {"angle"}, "a joint whose angle follows from the loops");
+    joint.joint.angle = angle(*near);
+    joint.joint.follows = true;
+  }
   if (const Value* k = map.find("stiffness"))
     joint.joint.stiffness = positive(*k, dimension::torque, scene.units, true);
   if (const Value* c = map.find("damping"))

@@ -122,4 +122,31 @@ SceneSection read_section(const Member& entry, const Value* body_material, const
   return section;
 }
 
+BeamSource read_beam(const Value& map, const Materials& materials, const Units& units) {
+  BeamSource beam;
+  beam.from = vector(*map.find("from"), dimension::length, units);
+  beam.to = vector(*map.find("to"), dimension::length, units);
+  if (!((beam.to - beam.from).norm() > 0.0))
+    throw InputError(map.find("to")->place, "the beam has no length: `from` and `to` are one point",
+                     "Move one of them");
+  const Value& section = *map.find("section");
+  refuse(section, {"shell", "offset"}, "a beam");
+  beam.section = read_section({"section", section.place, section}, map.find("material"), materials, units);
+  const Vec3 axis = (beam.to - beam.from).normalized();
+  if (!beam.section.orientation) beam.section.orientation = axis.unitOrthogonal();
+  if (axis.cross(*beam.section.orientation).norm() < 1e-6)
+    throw InputError(section.place, "the orientation lies along the beam's axis", "Give a vector across the axis");
+  if (const Value* model = map.find("model"))
+    beam.model = static_cast<BeamSource::Model>(choice(*model, {"fe", "titop-polynomial", "titop-clamped-free"}));
+  if (beam.model != BeamSource::Model::fe) refuse(map, {"elements"}, "a titop model");
+  if (beam.model != BeamSource::Model::clamped_free) refuse(map, {"modes"}, "this model");
+  if (const Value* elements = map.find("elements")) beam.elements = count(*elements, 1);
+  if (const Value* modes = map.find("modes")) beam.modes = count(*modes, 1);
+  if (const Value* plane = map.find("plane")) beam.planar = choice(*plane, {"xy"}) == 0;
+  if (beam.planar && std::get<fem::BeamSection>(beam.section.shape).Iyz != 0.0)
+    throw InputError(section.place, "a section with a product of inertia does not bend in one plane",
+                     "Leave `plane` out, or turn the orientation to a principal axis");
+  return beam;
+}
+
 }  // namespace tenon::assembly

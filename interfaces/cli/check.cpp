@@ -58,11 +58,11 @@ BodyCheck check_fe(const assembly::Scene& scene, const assembly::SceneBody& body
                   .mass = fem::mass_properties(structure),
                   .losses = loss_lines(model.losses)};
   if (!model.supports.empty()) {
-    findings.push_back(
-        {body.name,
-         fmt::format("{} dofs are held to the inertial frame by `fix`{}", model.supports.size(),
-                     scene.joints.empty() ? ": solve with `tenon modes --full`" : ", so it cannot be reduced and joined"),
-         scene.joints.empty()});
+    findings.push_back({body.name,
+                        fmt::format("{} dofs are held to the inertial frame by `fix`{}", model.supports.size(),
+                                    scene.joints.empty() ? ": solve with `tenon modes --full`"
+                                                         : ", so it cannot be reduced and joined"),
+                        scene.joints.empty()});
     return check;
   }
   const fem::MassProperties geometry = fem::geometric_mass_properties(model);
@@ -112,7 +112,7 @@ Report examine(const assembly::Scene& scene) {
   Report report{.plan = assembly::plan(scene), .bodies = {}, .findings = {}};
   bool joinable = true;
   for (const assembly::SceneBody& body : scene.bodies)
-    if (std::holds_alternative<assembly::FeSource>(body.source)) {
+    if (body.has_model()) {
       report.bodies.push_back(check_fe(scene, body, report.findings));
       joinable = joinable && !body.ports.empty();
     } else {
@@ -124,7 +124,7 @@ Report examine(const assembly::Scene& scene) {
   }
   const assembly::Network network = rigid_network(scene, report.plan);
   for (std::size_t k = 0; k < scene.bodies.size(); ++k)
-    if (!std::holds_alternative<assembly::FeSource>(scene.bodies[k].source))
+    if (!scene.bodies[k].has_model())
       report.bodies[k] =
           check_reduced(network.bodies[k],
                         std::holds_alternative<assembly::RigidSource>(scene.bodies[k].source) ? "rigid" : "reduced");

@@ -145,15 +145,15 @@ void write_output(const std::filesystem::path& path, const Result& result) {
   file.commit();
 }
 
-report::LogLogPlot picture(const Result& result) {
+report::Plot picture(const Result& result) {
   bool one_unit = true;
   for (const titop::Channel& output : result.outputs) one_unit = one_unit && output.unit == result.outputs.front().unit;
-  report::LogLogPlot plot{
-      .title = result.outputs.size() == 1 ? fmt::format("{} to {}", result.input.name, result.outputs.front().name)
-                                          : fmt::format("Responses to {}", result.input.name),
-      .x_label = "frequency [Hz]",
-      .y_label = one_unit ? fmt::format("gain [{}]", ratio_unit(result, 0)) : std::string("gain [SI]"),
-      .curves = {}};
+  report::Plot plot{.title = result.outputs.size() == 1
+                                 ? fmt::format("{} to {}", result.input.name, result.outputs.front().name)
+                                 : fmt::format("Responses to {}", result.input.name),
+                    .x_label = "frequency [Hz]",
+                    .y_label = one_unit ? fmt::format("gain [{}]", ratio_unit(result, 0)) : std::string("gain [SI]"),
+                    .curves = {}};
   for (std::size_t k = 0; k < result.outputs.size(); ++k) {
     report::Curve curve{result.outputs[k].name, {}, {}};
     for (std::size_t i = 0; i < result.responses[k].omega.size(); ++i) {

@@ -28,7 +28,11 @@ Full compare(const assembly::Scene& scene, const assembly::Network& network, con
   std::vector<fem::Model> models(scene.bodies.size());
   std::vector<const fem::Model*> pointers(scene.bodies.size(), nullptr);
   for (std::size_t k = 0; k < scene.bodies.size(); ++k)
-    if (std::holds_alternative<assembly::FeSource>(scene.bodies[k].source)) {
+    if (scene.bodies[k].has_model()) {
+      if (const auto* beam = std::get_if<assembly::BeamSource>(&scene.bodies[k].source); beam && beam->planar)
+        throw InputError(scene.bodies[k].place,
+                         "a beam that moves in one plane alone has no full model to compare with",
+                         "Leave `plane` out, or --full");
       models[k] = assembly::build_model(scene.bodies[k]);
       pointers[k] = &models[k];
     }
@@ -109,7 +113,7 @@ int modes_of_scene(const ModesCommand& command) {
   if (!command.clamp.empty())
     throw InputError({command.file.string()}, "--clamp is for decks", "Write `ground: [body.port]` into the scene");
   const assembly::SceneBody& first = scene.bodies.front();
-  if (scene.bodies.size() == 1 && first.ports.empty() && std::holds_alternative<assembly::FeSource>(first.source))
+  if (scene.bodies.size() == 1 && first.ports.empty() && first.has_model())
     return modes_of_model(command, assembly::build_model(first), {});
 
   std::optional<ProgressBar> bar(std::in_place);

@@ -71,7 +71,7 @@ ModePictures mode_pictures(const assembly::Scene& scene, const assembly::Network
     pictures.mesh.points.insert(pictures.mesh.points.end(), bodies[b].nodes.begin(), bodies[b].nodes.end());
     if (bodies[b].skeleton) {
       for (int k = 1; k < static_cast<int>(bodies[b].nodes.size()); ++k) cells.add(CellType::line, {0, k}, first);
-    } else if (std::holds_alternative<assembly::FeSource>(scene.bodies[b].source)) {
+    } else if (scene.bodies[b].has_model()) {
       cells.add(assembly::build_model(scene.bodies[b]), first);
     } else {
       for (int k = 0; k < static_cast<int>(bodies[b].nodes.size()); ++k) cells.add(CellType::vertex, {k}, first);

@@ -9,19 +9,20 @@ namespace tenon::report {
 
 struct Curve {
   std::string name;
-  std::vector<double> x, y;  ///< positive; others are left out of a logarithmic picture
+  std::vector<double> x, y;  ///< values that are not positive are left out along a logarithmic axis
 };
 
-struct LogLogPlot {
+struct Plot {
   std::string title;
   std::string x_label, y_label;
   std::vector<Curve> curves;
+  bool log_x = true, log_y = true;
 };
 
-/// The picture as SVG text: decades as grid lines, minor ticks, a legend when there are several curves.
-std::string to_svg(const LogLogPlot& plot);
+/// The picture as SVG text: decades or round steps as grid lines, a legend when there are several curves.
+std::string to_svg(const Plot& plot);
 
 /// Writes it whole or not at all. Throws InputError when the file cannot be written.
-void write_svg(const std::filesystem::path& path, const LogLogPlot& plot);
+void write_svg(const std::filesystem::path& path, const Plot& plot);
 
 }  // namespace tenon::report

@@ -205,6 +205,27 @@ TEST_F(Cli, InitWritesASceneThatOnlyLacksWhatTheUserKnows) {
   EXPECT_EQ(tenon("check " + folder_.write("new.yaml", text).string()).status, 0);
 }
 
+TEST_F(Cli, SweepTurnsAJointAndItsLoop) {
+  const std::string scene = (fs::path(TENON_SOURCE_DIR) / "data/fourbar/scene.yaml").string();
+  const json swept =
+      object("sweep " + scene +
+             " --joint drive --hold --to 90 --steps 4 -o table.csv --svg plot.svg --shapes shapes.svg --at 0 90");
+  ASSERT_EQ(swept["points"].size(), 4u);
+  EXPECT_EQ(swept["points"][3]["angle_deg"], 90.0);
+  EXPECT_EQ(swept["points"][0]["rigid_modes"], 0);
+  // exact dynamic stiffness at 0 degrees; quintic beams are 1e-4 above it
+  EXPECT_NEAR(2.0 * std::numbers::pi * swept["points"][0]["frequencies_hz"][0].get<double>(), 269.61825725, 0.03);
+  // links of 108, 279.4 and 270.5 mm close on a ground link of 254 mm
+  const double a = std::numbers::pi / 2,
+               b = a + swept["points"][3]["joint_angles_deg"]["a"].get<double>() / 57.29577951308232,
+               c = b + swept["points"][3]["joint_angles_deg"]["b"].get<double>() / 57.29577951308232;
+  EXPECT_NEAR(0.108 * std::cos(a) + 0.2794 * std::cos(b) + 0.2705 * std::cos(c), 0.254, 1e-12);
+  EXPECT_NEAR(0.108 * std::sin(a) + 0.2794 * std::sin(b) + 0.2705 * std::sin(c), 0.0, 1e-12);
+  EXPECT_THAT(text(folder_.path() / "table.csv"), HasSubstr("drive_deg,rigid_modes,f1_hz"));
+  for (const char* picture : {"plot.svg", "shapes_0.svg", "shapes_90.svg"})
+    EXPECT_THAT(text(folder_.path() / picture), HasSubstr("</svg>"));
+}
+
 TEST_F(Cli, DoctorSaysWhatIsLinkedAndUnderWhichTerms) {
   const json doctor = object("doctor");
   EXPECT_TRUE(doctor["libraries"].contains("CHOLMOD"));
@@ -214,7 +235,7 @@ TEST_F(Cli, DoctorSaysWhatIsLinkedAndUnderWhichTerms) {
 
 TEST_F(Cli, HelpEndsWithStatusZeroAndAnExample) {
   EXPECT_EQ(tenon("--help").status, 0);
-  for (const char* command : {"info", "init", "check", "modes", "reduce", "assemble", "frf", "doctor"}) {
+  for (const char* command : {"info", "init", "check", "modes", "reduce", "assemble", "frf", "sweep", "doctor"}) {
     const Ended help = tenon(std::string(command) + " --help");
     EXPECT_EQ(help.status, 0);
     EXPECT_THAT(help.out, HasSubstr("Example"));
@@ -269,7 +290,9 @@ TEST_P(CliBadInput, EndsWithStatusTwoAndWritesNothing) {
                 "  one: {parent: a.q, child: b.p, weld: true}\n"
                 "  two: {parent: b.q, child: a.p, weld: true}\n");
   std::string arguments = bad.arguments;
-  for (const auto& [word, value] : {std::pair(std::string("SCENE"), scene), {"FOLDER", folder_.path().string()}})
+  for (const auto& [word, value] : {std::pair(std::string("SCENE"), scene),
+                                    {"FOLDER", folder_.path().string()},
+                                    {"FOURBAR", (fs::path(TENON_SOURCE_DIR) / "data/fourbar/scene.yaml").string()}})
     for (std::size_t at = arguments.find(word); at != std::string::npos; at = arguments.find(word))
       arguments.replace(at, word.size(), value);
   const std::vector<std::string> before = files();
@@ -313,6 +336,9 @@ INSTANTIATE_TEST_SUITE_P(
                  "joints: {j: {parent: beam.tip, child: beam.rot, weld: true}}", "changed.yaml:10:.*no port 'rot'"},
         BadInput{"held_and_reduced", "assemble SCENE -o FOLDER/x.json", "    damping: 0.01\n", "    fix: {left: all}\n",
                  "changed.yaml:3:.*held to the inertial frame.*cannot be reduced.*ground"},
+        BadInput{"no_such_joint", "sweep FOURBAR --joint driv", "", "", "no joint 'driv'. Did you mean 'drive'"},
+        BadInput{"no_angle", "sweep FOURBAR --joint drive --to ninety", "", "", "'ninety' is no angle"},
+        BadInput{"planar_full", "modes FOURBAR --full", "", "", "scene.yaml:.*no full model"},
         BadInput{"no_units", "check SCENE", "units: SI\n", "", "beam_16.msh carries no units"},
         BadInput{"empty_band", "modes SCENE --band 5 5", "", "", "the band is empty"},
         BadInput{"bad_option", "modes SCENE --cuont 3", "", "", "cuont"}),
