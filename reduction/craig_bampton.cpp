@@ -61,7 +61,9 @@ ShiftedFactor factor_interior(const fem::Structure& structure, const Partition& 
     throw ModelError(
         fmt::format("{} can move without strain while all ports are held",
                     dof < structure.dofs.names.size() ? structure.dofs.names[dof] : fmt::format("row {}", dof)),
-        "Look there for a hinge, a node without rotational stiffness or a part that hangs by a thread");
+        "Look there for a hinge, a node without rotational stiffness, a part that hangs by a thread, or one so stiff "
+        "that "
+        "the rest is lost in its rounding");
   }
   return {0.0, std::move(K_ii), std::move(factor)};
 }

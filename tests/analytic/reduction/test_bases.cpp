@@ -99,6 +99,7 @@ TEST_F(UniformBeam, WorstOfAllEnds) {
     const std::string n = std::to_string(row.n) + " shapes, ";
     expect_printed(worst(reduced(Basis::craig_bampton, row.n - 2)), row.craig_bampton, n + "craig-bampton");
     expect_printed(worst(reduced(Basis::clamped_free_static, row.n - 2)), row.clamped_free_static, n + "static");
+    expect_printed(worst(reduced(Basis::rubin, row.n - 4)), row.rubin, n + "rubin");
     expect_printed(worst(reduced(Basis::craig_bampton_inertia_relief, row.n - 4)), row.inertia_relief, n + "relief");
   }
   const Errors eight = worst(reduced(Basis::craig_bampton_inertia_relief, 4));
