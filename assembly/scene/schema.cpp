@@ -68,7 +68,9 @@ const Schema rigid{"a rigid body",
                     {"com", list, "centre of mass in the body frame; the origin when absent"}}};
 
 const Schema reduction{"a reduction",
-                       {{"basis", scalar, "craig-bampton (default) or clamped-free"},
+                       {{"basis", scalar,
+                         "craig-bampton-inertia-relief (default), craig-bampton, clamped-free, "
+                         "clamped-free-static or rubin"},
                         {"modes", scalar, "how many modes, or `all`"},
                         {"band", scalar, "every mode below this frequency, e.g. 50 Hz"}}};
 
