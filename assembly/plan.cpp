@@ -13,24 +13,46 @@ double hertz(double omega) { return omega / (2.0 * std::numbers::pi); }
 constexpr double band_factor = 2.0;
 
 void plan_automatic(const Requirement& requirement, BodyPlan& body) {
+  const std::string statics = "static shapes of all ports and of rigid inertia";
   if (requirement.band) {
     const double top = (*requirement.band)[1];
     body.options.band = band_factor * top;
-    body.kept =
-        fmt::format("static shapes of all ports, fixed-interface modes below {:.4g} Hz", hertz(band_factor * top));
+    body.kept = fmt::format("{}, fixed-interface modes below {:.4g} Hz", statics, hertz(band_factor * top));
     body.dropped = fmt::format("fixed-interface modes above {:.4g} Hz", hertz(band_factor * top));
     body.why = fmt::format("the scene requires {:.4g} Hz; twice that keeps the error of the cut small", hertz(top));
   } else {
     body.options.modes = default_modes;
-    body.kept = fmt::format("static shapes of all ports, the lowest {} fixed-interface modes", default_modes);
+    body.kept = fmt::format("{}, the lowest {} fixed-interface modes", statics, default_modes);
     body.dropped = "all higher fixed-interface modes";
     body.why = "the scene states no band (requires: {band: ...}), so the default count is kept";
   }
 }
 
+// which modes a basis keeps, and which static shapes beside them
+struct Contents {
+  const char *modes, *statics;
+};
+
+Contents contents(reduction::Basis basis) {
+  using enum reduction::Basis;
+  switch (basis) {
+    case craig_bampton:
+      return {"fixed-interface modes", "static shapes of all ports"};
+    case craig_bampton_inertia_relief:
+      return {"fixed-interface modes", "static shapes of all ports and of rigid inertia"};
+    case clamped_free:
+      return {"modes clamped at the parent port", ""};
+    case clamped_free_static:
+      return {"modes clamped at the parent port", "static shapes of the child ports"};
+    case rubin:
+      break;
+  }
+  return {"free-free modes", "static shapes of all ports"};
+}
+
 void plan_chosen(const SceneReduction& chosen, BodyPlan& body) {
-  const bool clamped = chosen.basis == reduction::Basis::clamped_free;
-  const std::string modes = clamped ? "modes clamped at the parent port" : "fixed-interface modes";
+  const auto [modes, statics] = contents(chosen.basis);
+  const bool without = chosen.basis == reduction::Basis::clamped_free;
   body.options.basis = chosen.basis;
   body.options.band = chosen.band;
   body.options.all_modes = chosen.all;
@@ -38,8 +60,8 @@ void plan_chosen(const SceneReduction& chosen, BodyPlan& body) {
   body.kept = chosen.all    ? fmt::format("all {}", modes)
               : chosen.band ? fmt::format("{} below {:.4g} Hz", modes, hertz(*chosen.band))
                             : fmt::format("the lowest {} {}", *chosen.modes, modes);
-  if (!clamped) body.kept = "static shapes of all ports, " + body.kept;
-  body.dropped = chosen.all ? "nothing" : clamped ? "higher modes, and static shapes of the ports" : "higher modes";
+  if (!without) body.kept = fmt::format("{}, {}", statics, body.kept);
+  body.dropped = chosen.all ? "nothing" : without ? "higher modes, and static shapes of the ports" : "higher modes";
   body.why = "the scene says so";
 }
 

@@ -23,8 +23,9 @@ struct Plan {
   std::vector<std::string> notes;  ///< sentences on the scene as a whole
 };
 
-/// Decides from the values of the scene alone; opens no mesh. `auto` keeps the static shapes of all ports and every
-/// fixed-interface mode below twice the top of the required band, or the default count when no band is required.
+/// Decides from the values of the scene alone; opens no mesh. `auto` keeps the static shapes of all ports and of rigid
+/// inertia and every fixed-interface mode below twice the top of the required band, or the default count when no band
+/// is required.
 Plan plan(const Scene& scene);
 
 }  // namespace tenon::assembly

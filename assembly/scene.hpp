@@ -94,7 +94,7 @@ struct BeamSource {
 struct SceneReduction {
   enum class Kind { automatic, rigid, chosen };
   Kind kind = Kind::automatic;
-  reduction::Basis basis = reduction::Basis::craig_bampton;
+  reduction::Basis basis = reduction::Basis::craig_bampton_inertia_relief;
   std::optional<int> modes;
   std::optional<double> band;  ///< [rad/s]
   bool all = false;

@@ -1,4 +1,4 @@
-#include "reduction/craig_bampton.hpp"
+#include "reduction/subspace.hpp"
 
 #include <fmt/format.h>
 
@@ -10,21 +10,6 @@
 namespace tenon::reduction {
 
 namespace {
-
-// K_ii of a body held at its ports must be positive definite; a singular one has a mechanism inside
-ShiftedFactor factor_interior(const fem::Structure& structure, const Partition& parts, fem::SparseMatrix K_ii) {
-  Factor factor(K_ii);
-  int row = factor.try_factorize(K_ii);
-  if (row < 0) row = free_row(K_ii, factor);
-  if (row >= 0) {
-    const auto dof = static_cast<std::size_t>(parts.interior[static_cast<std::size_t>(row)]);
-    throw ModelError(
-        fmt::format("{} can move without strain while all ports are held",
-                    dof < structure.dofs.names.size() ? structure.dofs.names[dof] : fmt::format("row {}", dof)),
-        "Look there for a hinge, a node without rotational stiffness or a part that hangs by a thread");
-  }
-  return {0.0, std::move(K_ii), std::move(factor)};
-}
 
 // the rows `rows` and columns `columns` of a symmetric matrix, dense
 Eigen::MatrixXd dense_block(const fem::SparseMatrix& A, const std::vector<int>& rows, const std::vector<int>& columns) {
@@ -46,37 +31,80 @@ Eigen::MatrixXd dense_block(const fem::SparseMatrix& A, const std::vector<int>& 
   return B;
 }
 
+// the rows `rows` of A
+Eigen::MatrixXd rows_of(const Eigen::MatrixXd& A, const std::vector<int>& rows) { return A(rows, Eigen::all); }
+
 }  // namespace
 
-Subspace component_modes(const fem::Structure& structure, const Partition& parts, const ModesOptions& options) {
+Loads unit_loads(const fem::Structure& structure, const Partition& parts, int without) {
+  std::vector<int> rows;
+  Loads units;
+  for (std::size_t k = 0; k < parts.ports.size(); ++k)
+    for (std::size_t d = 0; d < 6 && static_cast<int>(k) != without; ++d)
+      if (const int row = parts.ports[k][d]; row >= 0) {
+        rows.push_back(row);
+        units.names.push_back(fmt::format("port '{}' {}", structure.ports[k].name, directions[d]));
+      }
+  units.F = Eigen::MatrixXd::Zero(structure.n(), static_cast<Eigen::Index>(rows.size()));
+  for (std::size_t k = 0; k < rows.size(); ++k) units.F(rows[k], static_cast<Eigen::Index>(k)) = 1.0;
+  return units;
+}
+
+// K_ii of a body held at its ports must be positive definite; a singular one has a mechanism inside
+ShiftedFactor factor_interior(const fem::Structure& structure, const Partition& parts) {
+  fem::SparseMatrix K_ii = principal(structure.K, parts.interior);
+  Factor factor(K_ii);
+  int row = factor.try_factorize(K_ii);
+  if (row < 0) row = free_row(K_ii, factor);
+  if (row >= 0) {
+    const auto dof = static_cast<std::size_t>(parts.interior[static_cast<std::size_t>(row)]);
+    throw ModelError(
+        fmt::format("{} can move without strain while all ports are held",
+                    dof < structure.dofs.names.size() ? structure.dofs.names[dof] : fmt::format("row {}", dof)),
+        "Look there for a hinge, a node without rotational stiffness, a part that hangs by a thread, or one so stiff "
+        "that "
+        "the rest is lost in its rounding");
+  }
+  return {0.0, std::move(K_ii), std::move(factor)};
+}
+
+Subspace component_modes(const fem::Structure& structure, const Partition& parts, const Loads& loads,
+                         const ModesOptions& options) {
   const auto children = static_cast<Eigen::Index>(parts.children.size());
   const auto interior = static_cast<Eigen::Index>(parts.interior.size());
   Subspace space;
   Eigen::MatrixXd Psi(interior, children);
   Eigen::MatrixXd K_CC = dense_block(structure.K, parts.children, parts.children);
+  ResidualShapes residual{Eigen::MatrixXd(interior, 0), Eigen::MatrixXd(0, 0), {}};
   if (interior > 0) {
     const fem::SparseMatrix M_ii = principal(structure.M, parts.interior);
-    const ShiftedFactor factored = factor_interior(structure, parts, principal(structure.K, parts.interior));
+    const ShiftedFactor factored = factor_interior(structure, parts);
     if (children > 0) {
       const Eigen::MatrixXd K_iC = dense_block(structure.K, parts.interior, parts.children);
       Psi = -factored.factor.solve(K_iC);     // Ψ = −K_ii⁻¹ K_iC
       K_CC += transposed_product(K_iC, Psi);  // K_CC − K_Ci K_ii⁻¹ K_iC
       K_CC = 0.5 * (K_CC + K_CC.transpose()).eval();
     }
+    space.modes.shapes.resize(interior, 0);
     if (options.count > 0 || options.band)
       space.modes = solve_modes(factored.A, M_ii, factored, Eigen::MatrixXd(interior, 0), options);
+    if (loads.F.cols() > 0)
+      residual = residual_shapes([&](const Eigen::MatrixXd& F) { return factored.factor.solve(F); }, M_ii, space.modes,
+                                 {rows_of(loads.F, parts.interior), loads.names});
   }
-  const Eigen::Index kept = space.modes.lambda.size();
-  space.T = Eigen::MatrixXd::Zero(structure.n(), children + kept);
+  const Eigen::Index statics = residual.X.cols(), kept = space.modes.lambda.size();
+  space.T = Eigen::MatrixXd::Zero(structure.n(), children + statics + kept);
   for (Eigen::Index c = 0; c < children; ++c) space.T(parts.children[static_cast<std::size_t>(c)], c) = 1.0;
-  for (Eigen::Index i = 0; i < interior; ++i) {
-    const int row = parts.interior[static_cast<std::size_t>(i)];
-    space.T.row(row).head(children) = Psi.row(i);
-    if (kept > 0) space.T.row(row).tail(kept) = space.modes.shapes.row(i);
-  }
-  space.K_zz = Eigen::MatrixXd::Zero(children + kept, children + kept);
+  space.T(parts.interior, Eigen::seqN(0, children)) = Psi;
+  space.T(parts.interior, Eigen::seqN(children, statics)) = residual.X;
+  if (kept > 0) space.T(parts.interior, Eigen::lastN(kept)) = space.modes.shapes;
+  space.K_zz = Eigen::MatrixXd::Zero(space.T.cols(), space.T.cols());
   space.K_zz.topLeftCorner(children, children) = K_CC;
+  space.K_zz.block(children, children, statics, statics) = residual.K;
   space.K_zz.diagonal().tail(kept) = space.modes.lambda;
+  space.statics = static_cast<int>(statics);
+  space.dropped = std::move(residual.dropped);
+  space.modes.shapes.resize(0, 0);
   return space;
 }
 

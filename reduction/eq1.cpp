@@ -27,8 +27,10 @@ ModalForm modal_form(const RelativeForm& relative) {
   Eigen::MatrixXd G = S.asDiagonal() * relative.K_zz * S.asDiagonal();
   const bool sound = positive && symmetric_eigen(G).values[0] > strainless && cholesky_in_place(G) < 0;
   if (!sound)
-    throw ModelError("the body can move without strain while its parent port is held",
-                     "Look for a mechanism or a hinge inside it, or take a parent port that holds all six directions");
+    throw ModelError(
+        "the body can move without strain while its parent port is held",
+        "Look for a mechanism or a hinge inside it, or a part so stiff that the rest is lost in its rounding, "
+        "or take a parent port that holds all six directions");
   Eigen::MatrixXd C = S.asDiagonal() * relative.M_zz * S.asDiagonal();  // G⁻¹ S M_zz S G⁻ᵀ
   triangular_solve(G, C, false);
   C.transposeInPlace();

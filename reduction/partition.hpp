@@ -8,6 +8,9 @@
 
 namespace tenon::reduction {
 
+/// Names of the six directions.
+inline constexpr std::array<const char*, 6> directions{"ux", "uy", "uz", "rx", "ry", "rz"};
+
 /// Which rows of K and M belong to which port.
 struct Partition {
   int parent = 0;                         ///< index of the parent port

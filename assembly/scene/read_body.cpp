@@ -104,8 +104,9 @@ SceneReduction read_reduction(const Value& value) {
   if (value.kind == Value::Kind::scalar)
     return {.kind = choice(value, {"auto", "rigid"}) == 0 ? Kind::automatic : Kind::rigid, .modes = {}, .band = {}};
   SceneReduction reduction{.kind = Kind::chosen, .modes = {}, .band = {}};
-  if (const Value* basis = value.find("basis"))
-    if (choice(*basis, {"craig-bampton", "clamped-free"}) == 1) reduction.basis = reduction::Basis::clamped_free;
+  if (const Value* basis = value.find("basis"))  // in the order of the enumerators
+    reduction.basis = static_cast<reduction::Basis>(choice(
+        *basis, {"craig-bampton", "craig-bampton-inertia-relief", "clamped-free", "clamped-free-static", "rubin"}));
   if (one_of(value, {"modes", "band"}, "a reduction") == "band") {
     reduction.band = frequency(*value.find("band"));
   } else if (value.find("modes")->text == "all") {

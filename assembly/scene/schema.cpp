@@ -78,7 +78,9 @@ const Schema beam{"a straight beam",
                    {"plane", scalar, "xy: moves in the section's x-y plane alone"}}};
 
 const Schema reduction{"a reduction",
-                       {{"basis", scalar, "craig-bampton (default) or clamped-free"},
+                       {{"basis", scalar,
+                         "craig-bampton-inertia-relief (default), craig-bampton, clamped-free, "
+                         "clamped-free-static or rubin"},
                         {"modes", scalar, "how many modes, or `all`"},
                         {"band", scalar, "every mode below this frequency, e.g. 50 Hz"}}};
 

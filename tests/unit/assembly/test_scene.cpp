@@ -81,6 +81,7 @@ TEST(Scene, ReadsEveryValueIntoSI) {
 
   const SceneBody& twin = scene.bodies[2];  // the merge takes what the map does not say itself
   EXPECT_EQ(twin.reduction.kind, SceneReduction::Kind::automatic);
+  EXPECT_EQ(twin.reduction.basis, reduction::Basis::craig_bampton_inertia_relief);
   EXPECT_EQ(twin.damping, 0.005);
 
   const Joint& drive = scene.joints[0].joint;
@@ -169,6 +170,8 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"no_units", "units: {length: mm, mass: t, time: s}", "", "panel.msh", "panel.msh carries no units",
               "Add `units: SI`"},
         Fault{"unknown_unit", "length: mm", "length: mmm", "mmm", "found 'mmm'", "Did you mean 'mm'?"},
+        Fault{"unknown_basis", "basis: clamped-free", "basis: clamped-fre", "clamped-fre", "found 'clamped-fre'",
+              "Did you mean 'clamped-free'?"},
         Fault{"unknown_body", "parent: hub.east", "parent: hob.east", "hob", "there is no body 'hob'",
               "Did you mean 'hub'?"},
         Fault{"unknown_port", "parent: hub.east", "parent: hub.eest", "hub.eest", "body 'hub' has no port 'eest'",
@@ -237,6 +240,25 @@ TEST(Scene, RefusesWhatIsNoDocument) {
   EXPECT_THROW(read("[1, 2]", folder), InputError);
   EXPECT_THROW(read(std::string("\x00\xff\xfe\x01garbage", 11), folder), InputError);
   EXPECT_THROW(read("a: &a [*a]", folder), InputError);
+}
+
+TEST(Plan, KnowsEveryBasis) {
+  using enum reduction::Basis;
+  const TemporaryFolder folder;
+  for (const auto& [word, basis, kept] :
+       {std::tuple{"craig-bampton", craig_bampton, "static shapes of all ports, fixed-interface modes"},
+        std::tuple{"craig-bampton-inertia-relief", craig_bampton_inertia_relief,
+                   "rigid inertia, fixed-interface modes"},
+        std::tuple{"clamped-free", clamped_free, "modes clamped at the parent port"},
+        std::tuple{"clamped-free-static", clamped_free_static, "static shapes of the child ports, modes clamped"},
+        std::tuple{"rubin", rubin, "static shapes of all ports, free-free modes"}}) {
+    std::string text = spacecraft;
+    const std::string chosen = "basis: clamped-free";
+    text.replace(text.find(chosen), chosen.size(), std::string("basis: ") + word);
+    const BodyPlan body = plan(read(text, folder)).bodies[1];
+    EXPECT_EQ(body.options.basis, basis);
+    EXPECT_THAT(body.kept, HasSubstr(kept));
+  }
 }
 
 TEST(Plan, KeepsTwiceTheRequiredBandAndSaysWhy) {
