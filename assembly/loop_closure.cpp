@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "assembly/kinematics.hpp"
+#include "assembly/loop_kinematics.hpp"
 #include "assembly/rank.hpp"
 #include "fem/error.hpp"
 
@@ -24,92 +25,6 @@ namespace {
 constexpr const char* direction_names[6] = {"translation x", "translation y", "translation z",
                                             "rotation x",    "rotation y",    "rotation z"};
 constexpr double nothing = 1e-12;  // of the greatest of its kind: a relative motion that nothing can cause
-
-// Coordinates of the tree: six of each free root, the angle of each revolute joint, η of each body; then the angles of
-// the revolute cuts.
-struct Coordinates {
-  std::vector<int> root, joint, body;  // first coordinate of each, −1 where there is none
-  std::vector<int> cut;
-  Index size = 0;
-  VectorXd scale;  // natural size of each
-};
-
-Coordinates number(const Network& network, const OpenLoops& open, const PortTree& tree) {
-  Coordinates c;
-  const double length = tree.placement.size > 0.0 ? tree.placement.size : 1.0;
-  std::vector<double> scale;
-  const auto add = [&](int& first, Index count, double size) {
-    first = static_cast<int>(scale.size());
-    scale.insert(scale.end(), static_cast<std::size_t>(count), size);
-  };
-  c.root.assign(tree.branches.size(), -1);
-  c.joint.assign(open.network.joints.size(), -1);
-  c.body.assign(network.bodies.size(), -1);
-  c.cut.assign(open.closures.size(), -1);
-  for (std::size_t k = 0; k < tree.branches.size(); ++k) {
-    const Branch& branch = tree.branches[k];
-    int rotations = 0;
-    if (branch.parent < 0 && branch.outer_port < 0) {
-      add(c.root[k], 3, 1.0);
-      add(rotations, 3, 1.0 / length);
-    }
-    const auto j = static_cast<std::size_t>(std::max(branch.joint, 0));
-    if (branch.joint >= 0 && open.network.joints[j].kind == JointKind::revolute) add(c.joint[j], 1, 1.0 / length);
-    const auto b = static_cast<std::size_t>(branch.body);
-    const ReducedBody& body = tree.bodies[b];
-    c.body[b] = static_cast<int>(scale.size());
-    for (int m = 0; m < body.n(); ++m) {  // η that moves the most mobile port by about 1 m
-      double mobility = body.D(0, 0) > 0.0 ? 1e-3 / std::sqrt(body.D(0, 0)) : 1e-3;
-      for (const reduction::BodyPort& port : body.ports)
-        mobility = std::max({mobility, port.Phi.col(m).head<3>().cwiseAbs().maxCoeff(),
-                             length * port.Phi.col(m).tail<3>().cwiseAbs().maxCoeff()});
-      scale.push_back(1.0 / mobility);
-    }
-  }
-  for (std::size_t k = 0; k < open.closures.size(); ++k)
-    if (const int j = open.closures[k].joint;
-        j >= 0 && network.joints[static_cast<std::size_t>(j)].kind == JointKind::revolute)
-      add(c.cut[k], 1, 1.0 / length);
-  c.size = static_cast<Index>(scale.size());
-  c.scale = Eigen::Map<const VectorXd>(scale.data(), c.size);
-  return c;
-}
-
-// Motions of the bodies' references over the coordinates, world axes, from the root to the tips:
-//   x_k = τ(port) x_parent + R Φ η_parent + [0; axis] δθ.
-class Motions {
- public:
-  Motions(const Network& network, const PortTree& tree, const Coordinates& c) : tree_(tree), c_(c) {
-    x_.assign(network.bodies.size(), Mat6X::Zero(6, c.size));
-    for (std::size_t k = 0; k < tree.branches.size(); ++k) {
-      const Branch& branch = tree.branches[k];
-      Mat6X& x = x_[static_cast<std::size_t>(branch.body)];
-      if (branch.parent < 0) {
-        if (branch.outer_port < 0) x.middleCols<6>(c.root[k]).setIdentity();
-        continue;
-      }
-      x = port({tree.branches[static_cast<std::size_t>(branch.parent)].body, branch.inner_port});
-      if (branch.joint < 0) continue;
-      const auto j = static_cast<std::size_t>(branch.joint);
-      if (const int at = c.joint[j]; at >= 0)  // the joint's child turns against its parent
-        x.col(at).tail<3>() += (branch.outward ? 1.0 : -1.0) * joint_axis(network, tree.placement, network.joints[j]);
-    }
-  }
-
-  Mat6X port(const PortRef& ref) const {
-    const auto b = static_cast<std::size_t>(ref.body);
-    const ReducedBody& body = tree_.bodies[b];
-    const MatrixXd rows = port_rows(body, ref.port, tree_.placement.R[b]);
-    Mat6X motion = rows.leftCols<6>() * x_[b];
-    motion.middleCols(c_.body[b], body.n()) += rows.rightCols(body.n());
-    return motion;
-  }
-
- private:
-  const PortTree& tree_;
-  const Coordinates& c_;
-  std::vector<Mat6X> x_;
-};
 
 // Axes of a cut: columns; the third is that of a revolute joint.
 Mat6 axes_of(const Network& network, const PortTree& tree, const Closure& closure) {
@@ -193,7 +108,7 @@ StateSpace with_drive(const StateSpace& ss, const Joint& joint, Index in, Index 
 }
 
 // Rows of the relative motion at a cut over the coordinates.
-Mat6X relative_rows(const Network& network, const PortTree& tree, const Motions& motions, const Closure& closure) {
+Mat6X relative_rows(const Network& network, const PortTree& tree, const LoopMotions& motions, const Closure& closure) {
   if (closure.joint < 0) return motions.port(closure.ground);
   const Joint& joint = network.joints[static_cast<std::size_t>(closure.joint)];
   return axes_of(network, tree, closure).transpose() * (motions.port(joint.child) - motions.port(joint.parent));
@@ -216,6 +131,96 @@ MatrixXd allowed(const MatrixXd& J, const std::vector<int>& kept) {
   }
   if (rows.rows() == 0) return MatrixXd::Identity(rows.cols(), rows.cols());
   return row_space(rows, lengths, "the closure of the loops").null;
+}
+
+// The channels of the cuts that are held, and the closure rows over the coordinates (rotations times the length).
+struct Held {
+  std::vector<int> channels;
+  MatrixXd J;
+};
+
+Held held_rows(const Network& network, const OpenLoops& open, const PortTree& tree, const StateSpace& ss,
+               const LoopCoordinates& c) {
+  const auto nu = static_cast<Index>(network.inputs.size()), ny = static_cast<Index>(network.outputs.size());
+  const double length = tree.placement.size > 0.0 ? tree.placement.size : 1.0;
+  // accelerations by wrenches at the cuts: of their sides, translations and rotations; and of one against the other
+  double size[2] = {0.0, 0.0};
+  const auto probes = static_cast<Index>(open.outputs.size());
+  const Index wrenches = tree.ss.D.cols() - static_cast<Index>(open.inputs.size());
+  for (Index r = probes; r < tree.ss.D.rows(); ++r) {
+    double& kind = size[(r - probes) % 6 / 3];
+    kind = std::max(kind, tree.ss.D.row(r).tail(wrenches).cwiseAbs().maxCoeff());
+  }
+  const auto relative_size = [&](Index channel) {
+    return ss.D.row(ny + channel).tail(ss.D.cols() - nu).cwiseAbs().maxCoeff();
+  };
+  const LoopMotions motions(open.network, tree, c);
+  Held held{{}, MatrixXd::Zero(6 * static_cast<Index>(open.closures.size()), c.size)};
+  Index rows = 0;
+  for (std::size_t k = 0; k < open.closures.size(); ++k) {
+    const Mat6X relative = relative_rows(network, tree, motions, open.closures[k]) * c.scale.asDiagonal();
+    for (int d = 0; d < 6; ++d) {
+      const int channel = 6 * static_cast<int>(k) + d;
+      const double unit = d < 3 ? 1.0 : length;
+      if (d == 5 && revolute(network, open.closures[k])) {  // its angle: δθ = relative rotation
+        held.J.row(rows) = unit * relative.row(d);
+        held.J(rows++, c.cut[k]) = -unit * c.scale[c.cut[k]];
+      } else if (relative_size(channel) > nothing * size[d / 3]) {
+        held.channels.push_back(channel);
+        held.J.row(rows++) = unit * relative.row(d);
+      }
+    }
+  }
+  held.J.conservativeResize(rows, Eigen::NoChange);
+  return held;
+}
+
+std::vector<int> from(int first, std::size_t count) {
+  std::vector<int> numbers(count);
+  std::iota(numbers.begin(), numbers.end(), first);
+  return numbers;
+}
+
+// Inverts the held channels and leaves the network's own: the relative accelerations that are inputs then are zero.
+titop::Inversion hold(const StateSpace& ss, const std::vector<int>& channels, std::size_t nu, std::size_t ny) {
+  std::vector<int> in, out;  // the held ones first, in inputs and outputs alike
+  for (const int channel : channels) {
+    in.push_back(static_cast<int>(nu) + channel);
+    out.push_back(static_cast<int>(ny) + channel);
+  }
+  for (const int k : from(0, nu)) in.push_back(k);
+  for (const int k : from(0, ny)) out.push_back(k);
+  const StateSpace ordered = titop::subsystem(ss, out, in);
+  titop::Inversion inverse =
+      channels.empty() ? titop::Inversion{ordered} : titop::invert_channels(ordered, from(0, channels.size()));
+  const auto first = static_cast<int>(channels.size());
+  inverse.ss = titop::subsystem(inverse.ss, from(first, ny), from(first, nu));
+  return inverse;
+}
+
+// x = S Z z: S scales coordinates to states, Z spans what the loops allow of positions and of rates.
+StateSpace confined(StateSpace ss, const std::vector<PortState>& states, const LoopCoordinates& c, const MatrixXd& J) {
+  const auto coordinate = [&](const PortState& s) {
+    if (s.body >= 0) return c.body[static_cast<std::size_t>(s.body)] + s.mode;
+    const auto j = static_cast<std::size_t>(s.joint);
+    return j < c.joint.size() ? c.joint[j] : c.cut[j - c.joint.size()];
+  };
+  std::vector<int> at[2], kept[2];  // positions, rates: states and their coordinates
+  VectorXd S(ss.A.rows());
+  for (std::size_t s = 0; s < states.size(); ++s) {
+    at[states[s].rate].push_back(static_cast<int>(s));
+    kept[states[s].rate].push_back(coordinate(states[s]));
+    S[static_cast<Index>(s)] = states[s].scale * c.scale[kept[states[s].rate].back()];
+  }
+  const MatrixXd Z0 = allowed(J, kept[0]), Z1 = allowed(J, kept[1]);
+  MatrixXd Z = MatrixXd::Zero(ss.A.rows(), Z0.cols() + Z1.cols());
+  Z(at[0], Eigen::seqN(0, Z0.cols())) = Z0;
+  Z(at[1], Eigen::seqN(Z0.cols(), Z1.cols())) = Z1;
+  const MatrixXd out = Z.transpose() * S.cwiseInverse().asDiagonal(), in = S.asDiagonal() * Z;
+  ss.A = (out * ss.A * in).eval();
+  ss.B = (out * ss.B).eval();
+  ss.C = (ss.C * in).eval();
+  return ss;
 }
 
 }  // namespace
@@ -288,97 +293,22 @@ OpenLoops open_loops(const Network& network) {
 }
 
 PortAlgebra close_loops(const Network& network, const OpenLoops& open, const PortTree& tree) {
-  const auto nu = static_cast<int>(network.inputs.size()), ny = static_cast<int>(network.outputs.size());
+  const auto nu = network.inputs.size(), ny = network.outputs.size();
   StateSpace ss = with_cuts(network, open, tree);
+  const LoopCoordinates c = loop_coordinates(network, open, tree);
+  const Held held = held_rows(network, open, tree, ss, c);
   std::vector<PortState> states = tree.states;
-  const Coordinates c = number(network, open, tree);
-  const Motions motions(open.network, tree, c);
-
-  // the channels that are held, and their rows over the coordinates
-  const double length = tree.placement.size > 0.0 ? tree.placement.size : 1.0;
-  // accelerations by wrenches at the cuts: of their sides, translations and rotations; and of one against the other
-  double size[2] = {0.0, 0.0};
-  const auto probes = static_cast<Index>(open.outputs.size());
-  for (Index r = probes; r < tree.ss.D.rows(); ++r) {
-    double& kind = size[(r - probes) % 6 / 3];
-    kind = std::max(
-        kind, tree.ss.D.row(r).tail(tree.ss.D.cols() - static_cast<Index>(open.inputs.size())).cwiseAbs().maxCoeff());
-  }
-  const auto row_size = [&](Index row) { return ss.D.row(row).tail(ss.D.cols() - nu).cwiseAbs().maxCoeff(); };
-  std::vector<int> held;
-  MatrixXd J = MatrixXd::Zero(6 * static_cast<Index>(open.closures.size()), c.size);
-  Index rows = 0;
   for (std::size_t k = 0; k < open.closures.size(); ++k) {
-    const Mat6X relative = relative_rows(network, tree, motions, open.closures[k]) * c.scale.asDiagonal();
-    const bool turns = revolute(network, open.closures[k]);
-    for (int d = 0; d < 6; ++d) {
-      const int channel = 6 * static_cast<int>(k) + d;
-      const double unit = d < 3 ? 1.0 : length;
-      if (turns && d == 5) {  // its angle: δθ = relative rotation
-        J.row(rows) = unit * relative.row(d);
-        J(rows++, c.cut[k]) = -unit * c.scale[c.cut[k]];
-        continue;
-      }
-      if (row_size(ny + channel) <= nothing * size[d / 3]) continue;  // nothing moves there
-      held.push_back(channel);
-      J.row(rows++) = unit * relative.row(d);
-    }
-    if (!turns) continue;
-    const int j = open.closures[k].joint;
-    const Joint& joint = network.joints[static_cast<std::size_t>(j)];
+    if (!revolute(network, open.closures[k])) continue;
     const Index before = ss.A.rows();
-    ss = with_drive(ss, joint, nu + 6 * static_cast<Index>(k) + 5, ny + 6 * static_cast<Index>(k) + 5);
-    const Index added = ss.A.rows() - before;
-    for (Index s = 0; s < added; ++s)
-      states.push_back({-1, static_cast<int>(open.network.joints.size() + k), 0, s + 1 == added, 1.0});
+    const auto axis = static_cast<Index>(6 * k + 5);
+    ss = with_drive(ss, network.joints[static_cast<std::size_t>(open.closures[k].joint)], static_cast<Index>(nu) + axis,
+                    static_cast<Index>(ny) + axis);
+    for (Index s = before; s < ss.A.rows(); ++s)
+      states.push_back({-1, static_cast<int>(open.network.joints.size() + k), 0, s + 1 == ss.A.rows(), 1.0});
   }
-  J.conservativeResize(rows, Eigen::NoChange);
-
-  double condition = tree.worst_condition;
-  if (!held.empty()) {  // a system of the held channels alone beside the network's own
-    std::vector<int> in(static_cast<std::size_t>(nu)), out(static_cast<std::size_t>(ny)), first(held.size());
-    std::iota(in.begin(), in.end(), 0);
-    std::iota(out.begin(), out.end(), 0);
-    for (const int channel : held) in.push_back(nu + channel), out.push_back(ny + channel);
-    // channels to invert stand first, in inputs and in outputs alike
-    std::rotate(in.begin(), in.begin() + nu, in.end());
-    std::rotate(out.begin(), out.begin() + ny, out.end());
-    std::iota(first.begin(), first.end(), 0);
-    const titop::Inversion inverse = titop::invert_channels(titop::subsystem(ss, out, in), first);
-    condition = std::max(condition, inverse.condition);
-    std::vector<int> keep_in(static_cast<std::size_t>(nu)), keep_out(static_cast<std::size_t>(ny));
-    std::iota(keep_in.begin(), keep_in.end(), static_cast<int>(held.size()));
-    std::iota(keep_out.begin(), keep_out.end(), static_cast<int>(held.size()));
-    ss = titop::subsystem(inverse.ss, keep_out, keep_in);
-  } else {
-    std::vector<int> in(static_cast<std::size_t>(nu)), out(static_cast<std::size_t>(ny));
-    std::iota(in.begin(), in.end(), 0);
-    std::iota(out.begin(), out.end(), 0);
-    ss = titop::subsystem(ss, out, in);
-  }
-
-  // x = S Z z: S scales coordinates to states, Z spans what the loops allow of positions and of rates
-  const auto coordinate = [&](const PortState& s) {
-    if (s.body >= 0) return c.body[static_cast<std::size_t>(s.body)] + s.mode;
-    const auto j = static_cast<std::size_t>(s.joint);
-    return j < c.joint.size() ? c.joint[j] : c.cut[j - c.joint.size()];
-  };
-  std::vector<int> at[2], kept[2];  // positions, rates: states and their coordinates
-  VectorXd S(ss.A.rows());
-  for (std::size_t s = 0; s < states.size(); ++s) {
-    at[states[s].rate].push_back(static_cast<int>(s));
-    kept[states[s].rate].push_back(coordinate(states[s]));
-    S[static_cast<Index>(s)] = states[s].scale * c.scale[kept[states[s].rate].back()];
-  }
-  const MatrixXd Z0 = allowed(J, kept[0]), Z1 = allowed(J, kept[1]);
-  MatrixXd Z = MatrixXd::Zero(ss.A.rows(), Z0.cols() + Z1.cols());
-  Z(at[0], Eigen::seqN(0, Z0.cols())) = Z0;
-  Z(at[1], Eigen::seqN(Z0.cols(), Z1.cols())) = Z1;
-  const MatrixXd out = Z.transpose() * S.cwiseInverse().asDiagonal(), in = S.asDiagonal() * Z;
-  ss.A = (out * ss.A * in).eval();
-  ss.B = (out * ss.B).eval();
-  ss.C = (ss.C * in).eval();
-  return {std::move(ss), condition};
+  titop::Inversion inverse = hold(ss, held.channels, nu, ny);
+  return {confined(std::move(inverse.ss), states, c, held.J), std::max(tree.worst_condition, inverse.condition)};
 }
 
 }  // namespace tenon::assembly
