@@ -90,17 +90,19 @@ ElementDofs free_dofs(const Model& model, const DofMap& map) {
   return elements;
 }
 
-/// Adds T_eᵀ A T_e of one element after the other; its scratch lives as long as the assembly.
+/// Adds T_eᵀ A_e T_e of one element after the other; its scratch lives as long as the assembly. What the pattern has no
+/// place for goes into `beside`.
 class Scatter {
  public:
-  Scatter(const DofMap& map, SparseMatrix& K, double* M) : map_(map), K_(K), M_(M) {}
+  Scatter(const DofMap& map, LowerTriangle& A, std::vector<Eigen::Triplet<double>>& beside)
+      : map_(map), A_(A), beside_(beside) {}
 
-  void add(const FullDofs& dofs, std::span<const int> free, const ElementMatrices& e) {
+  void add(const FullDofs& dofs, std::span<const int> free, const ElementMatrices::Matrix& A) {
     const auto n = static_cast<Eigen::Index>(free.size());
     if (n == 0) return;
     if (plain(dofs)) {
       for (int i = 0; i < dofs.size; ++i) local_[static_cast<std::size_t>(i)] = term(dofs, i).free;
-      add_plain(dofs.size, e);
+      add_plain(dofs.size, A);
       return;
     }
     T_.setZero(dofs.size, n);
@@ -111,18 +113,12 @@ class Scatter {
         T_(i, std::lower_bound(free.begin(), free.end(), s.free) - free.begin()) += s.coefficient;
       }
     }
-    KT_.noalias() = e.K * T_;
-    MT_.noalias() = e.M * T_;
-    TKT_.noalias() = T_.transpose() * KT_;
-    TMT_.noalias() = T_.transpose() * MT_;
+    AT_.noalias() = A * T_;
+    TAT_.noalias() = T_.transpose() * AT_;
     for (Eigen::Index b = 0; b < n; ++b) {
-      const int j = free[static_cast<std::size_t>(b)];
-      int at = K_.outerIndexPtr()[j];
-      for (Eigen::Index a = b; a < n; ++a) {
-        at = position(free[static_cast<std::size_t>(a)], j, at);
-        K_.valuePtr()[at] += TKT_(a, b);
-        M_[at] += TMT_(a, b);
-      }
+      int at = 0;
+      for (Eigen::Index a = b; a < n; ++a)
+        put(free[static_cast<std::size_t>(a)], free[static_cast<std::size_t>(b)], TAT_(a, b), at);
     }
   }
 
@@ -141,13 +137,19 @@ class Scatter {
     return true;
   }
 
-  /// Index of (i, j) in column j, searched from `from`; i is there by construction.
-  int position(int i, int j, int from) const {
-    const int* rows = K_.innerIndexPtr();
-    return static_cast<int>(std::lower_bound(rows + from, rows + K_.outerIndexPtr()[j + 1], i) - rows);
+  /// A_ij += value; rows of a column come in ascending order, `from` remembers where the last one lay.
+  void put(int i, int j, double value, int& from) {
+    if (value == 0.0) return;
+    const int at = A_.position(i, j, from);
+    if (at < 0) {
+      beside_.emplace_back(i, j, value);
+      return;
+    }
+    A_.value[static_cast<std::size_t>(at)] += value;
+    from = at;
   }
 
-  void add_plain(int n, const ElementMatrices& e) {
+  void add_plain(int n, const ElementMatrices::Matrix& A) {
     std::array<int, ElementMatrices::max_dofs> order{};
     std::iota(order.begin(), order.begin() + n, 0);
     std::sort(order.begin(), order.begin() + n, [this](int a, int b) {
@@ -155,22 +157,20 @@ class Scatter {
     });
     for (int b = 0; b < n; ++b) {
       const int local_j = order[static_cast<std::size_t>(b)];
-      const int j = local_[static_cast<std::size_t>(local_j)];
-      int at = K_.outerIndexPtr()[j];
+      int at = 0;
       for (int a = b; a < n; ++a) {
         const int local_i = order[static_cast<std::size_t>(a)];
-        at = position(local_[static_cast<std::size_t>(local_i)], j, at);
-        K_.valuePtr()[at] += e.K(local_i, local_j);
-        M_[at] += e.M(local_i, local_j);
+        put(local_[static_cast<std::size_t>(local_i)], local_[static_cast<std::size_t>(local_j)], A(local_i, local_j),
+            at);
       }
     }
   }
 
   const DofMap& map_;
-  SparseMatrix& K_;
-  double* M_;  // values in the pattern of K
+  LowerTriangle& A_;
+  std::vector<Eigen::Triplet<double>>& beside_;
   std::array<int, ElementMatrices::max_dofs> local_{};
-  Eigen::MatrixXd T_, KT_, MT_, TKT_, TMT_;
+  Eigen::MatrixXd T_, AT_, TAT_;
 };
 
 [[noreturn]] void rethrow(const std::exception_ptr& fault, const std::string& source) {
@@ -184,10 +184,10 @@ class Scatter {
 
 /// Element matrices are computed side by side in chunks and added in the order of the elements: the sums do not depend
 /// on the number of threads.
-void add_elements(const Model& model, const DofMap& map, const ElementDofs& elements, SparseMatrix& K, double* M) {
+void add_elements(const Model& model, const ElementDofs& elements, ElementMatrices::Matrix ElementMatrices::*part,
+                  Scatter scatter) {
   constexpr std::size_t chunk = 256;
   std::vector<ElementMatrices> matrices(std::min(chunk, model.elements.size()));
-  Scatter scatter(map, K, M);
   for (std::size_t first = 0; first < model.elements.size(); first += chunk) {
     const std::size_t count = std::min(chunk, model.elements.size() - first);
     std::vector<std::exception_ptr> faults(1);
@@ -206,7 +206,7 @@ void add_elements(const Model& model, const DofMap& map, const ElementDofs& elem
     }
     if (faults.front()) rethrow(faults.front(), model.source);
     for (std::size_t i = 0; i < count; ++i)
-      scatter.add(full_dofs(model.elements[first + i]), elements.of(first + i), matrices[i]);
+      scatter.add(full_dofs(model.elements[first + i]), elements.of(first + i), matrices[i].*part);
   }
 }
 
@@ -270,12 +270,25 @@ Structure assemble(const Model& model) {
   Structure s;
   s.dofs = eliminate_constraints(model, used_dofs(model));
   const ElementDofs elements = free_dofs(model, s.dofs);
-  s.K = lower_zeros(elements, s.dofs.n_free());
-  s.M.resize(s.K.rows(), s.K.cols());
-  s.M.resizeNonZeros(s.K.nonZeros());  // one pattern for both while they grow
-  std::fill(s.M.valuePtr(), s.M.valuePtr() + s.K.nonZeros(), 0.0);
-  add_elements(model, s.dofs, elements, s.K, s.M.valuePtr());
-  drop_zeros(s.K, s.M);
+  std::vector<Eigen::Triplet<double>> beside;
+  {
+    LowerTriangle K = lower_zeros(elements, s.dofs.n_free());
+    add_elements(model, elements, &ElementMatrices::K, Scatter(s.dofs, K, beside));
+    s.K = without_zeros(std::move(K));
+  }
+  // Mass acts, but for offset points, where stiffness does: it grows in the entries that K has kept. The elements are
+  // computed anew for it, which costs less than holding both patterns in full.
+  LowerTriangle M;
+  M.start.assign(s.K.outerIndexPtr(), s.K.outerIndexPtr() + s.K.cols() + 1);
+  M.row.assign(s.K.innerIndexPtr(), s.K.innerIndexPtr() + s.K.nonZeros());
+  M.value.assign(M.row.size(), 0.0);
+  add_elements(model, elements, &ElementMatrices::M, Scatter(s.dofs, M, beside));
+  s.M = without_zeros(std::move(M));
+  if (!beside.empty()) {
+    SparseMatrix rest(s.K.rows(), s.K.cols());
+    rest.setFromTriplets(beside.begin(), beside.end());
+    s.M = SparseMatrix(s.M + rest);
+  }
   s.nodes = model.nodes;
   s.node_ids = model.node_ids;
   s.scalar_points = model.scalar_points;

@@ -26,18 +26,26 @@ ElementDofs elements_of_dofs(const ElementDofs& elements, int n) {
 
 }  // namespace
 
-SparseMatrix lower_zeros(const ElementDofs& elements, int n) {
+int LowerTriangle::position(int i, int j, int from) const {
+  const auto column = static_cast<std::size_t>(j);
+  const auto begin = row.begin() + std::max(from, start[column]), end = row.begin() + start[column + 1];
+  const auto at = std::lower_bound(begin, end, i);
+  return at != end && *at == i ? static_cast<int>(at - row.begin()) : -1;
+}
+
+LowerTriangle lower_zeros(const ElementDofs& elements, int n) {
   const ElementDofs of_dof = elements_of_dofs(elements, n);
-  SparseMatrix A(n, n);
+  LowerTriangle A;
+  A.start.assign(1, 0);
+  A.start.reserve(static_cast<std::size_t>(n) + 1);
   std::vector<int> marked(static_cast<std::size_t>(n), -1);
   std::vector<int> neighbours;
   std::size_t entries = 0;
   for (int pass = 0; pass < 2; ++pass) {  // first count, then fill: the arrays are allocated once, at their size
     if (pass == 1) {
-      A.resizeNonZeros(static_cast<Eigen::Index>(entries));
+      A.row.reserve(entries);
       std::fill(marked.begin(), marked.end(), -1);
     }
-    int* row = A.innerIndexPtr();
     for (int j = 0; j < n; ++j) {
       const auto column = static_cast<std::size_t>(j);
       const bool same_elements = j > 0 && std::ranges::equal(of_dof.of(column), of_dof.of(column - 1));
@@ -57,8 +65,8 @@ SparseMatrix lower_zeros(const ElementDofs& elements, int n) {
       if (pass == 0) {
         entries += static_cast<std::size_t>(neighbours.end() - lower);
       } else {
-        row = std::copy(lower, neighbours.end(), row);
-        A.outerIndexPtr()[j + 1] = static_cast<int>(row - A.innerIndexPtr());
+        A.row.insert(A.row.end(), lower, neighbours.end());
+        A.start.push_back(static_cast<int>(A.row.size()));
       }
     }
     if (entries > static_cast<std::size_t>(std::numeric_limits<int>::max()))
@@ -66,33 +74,24 @@ SparseMatrix lower_zeros(const ElementDofs& elements, int n) {
                            static_cast<double>(entries),
                            "Use a coarser mesh, or cut the body in two and join the parts by ports");
   }
-  std::fill(A.valuePtr(), A.valuePtr() + entries, 0.0);
+  A.value.assign(entries, 0.0);
   return A;
 }
 
-void drop_zeros(SparseMatrix& A, SparseMatrix& B) {
-  int to_A = 0, to_B = 0, at = 0;
-  for (int j = 0; j < A.outerSize(); ++j) {
-    const int end = A.outerIndexPtr()[j + 1];
-    for (; at < end; ++at) {  // what is written lies at or before what is read
-      const int row = A.innerIndexPtr()[at];
-      if (const double value = A.valuePtr()[at]; value != 0.0) {
-        A.innerIndexPtr()[to_A] = row;
-        A.valuePtr()[to_A++] = value;
-      }
-      if (const double value = B.valuePtr()[at]; value != 0.0) {
-        B.innerIndexPtr()[to_B] = row;
-        B.valuePtr()[to_B++] = value;
-      }
-    }
-    A.outerIndexPtr()[j + 1] = to_A;
-    B.outerIndexPtr()[j + 1] = to_B;
+SparseMatrix without_zeros(LowerTriangle A) {
+  const auto n = static_cast<Eigen::Index>(A.start.size()) - 1;
+  SparseMatrix result(n, n);
+  result.resizeNonZeros(static_cast<Eigen::Index>(std::ranges::count_if(A.value, [](double v) { return v != 0.0; })));
+  int at = 0;
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const auto column = static_cast<std::size_t>(j);
+    for (auto t = static_cast<std::size_t>(A.start[column]); t < static_cast<std::size_t>(A.start[column + 1]); ++t)
+      if (A.value[t] != 0.0) result.innerIndexPtr()[at++] = A.row[t];
+    result.outerIndexPtr()[j + 1] = at;
   }
-  for (auto [matrix, kept] : {std::pair{&B, to_B}, std::pair{&A, to_A}}) {
-    const bool roomy = 10 * static_cast<long>(kept) < 9 * static_cast<long>(at);
-    matrix->data().resize(kept);
-    if (roomy) matrix->data().squeeze();
-  }
+  A.row = {};
+  std::ranges::copy_if(A.value, result.valuePtr(), [](double v) { return v != 0.0; });
+  return result;
 }
 
 }  // namespace tenon::fem

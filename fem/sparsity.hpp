@@ -18,11 +18,19 @@ struct ElementDofs {
   std::size_t size() const { return start.size() - 1; }
 };
 
-/// The lower triangle of Σ T_eᵀ A_e T_e over n free dofs, every entry that an element may fill present with value zero.
-SparseMatrix lower_zeros(const ElementDofs& elements, int n);
+/// A lower triangle while it grows: column starts, sorted rows, values.
+struct LowerTriangle {
+  std::vector<int> start, row;
+  std::vector<double> value;
 
-/// Takes the entries that are exactly zero out of A and B, in place. B comes with the values of A's pattern alone (as
-/// many non-zeros as A, indices not yet written) and leaves with a pattern of its own.
-void drop_zeros(SparseMatrix& A, SparseMatrix& B);
+  /// Index of (i, j), searched from `from` (0: the column's start); −1 where the pattern has no such entry.
+  int position(int i, int j, int from = 0) const;
+};
+
+/// Σ T_eᵀ A_e T_e over n free dofs before anything is added: every entry that an element may fill, with value zero.
+LowerTriangle lower_zeros(const ElementDofs& elements, int n);
+
+/// The entries that are not exactly zero; takes A apart piece by piece, so that both hardly ever stand side by side.
+SparseMatrix without_zeros(LowerTriangle A);
 
 }  // namespace tenon::fem
