@@ -92,10 +92,11 @@ SecondOrderSystem second_order(const Network& network) {
   }
   s.N = S * N;
 
-  s.K = s.M = MatrixXd::Zero(n, n);
-  s.K.diagonal().tail(f).setOnes();
-  s.M.diagonal().head(r).setOnes();
-  s.M.diagonal().tail(f) = sigma.cwiseAbs2();
+  VectorXd stiffness = VectorXd::Zero(n), mass = VectorXd::Ones(n);  // n = 0: nothing can move
+  stiffness.tail(f).setOnes();
+  mass.tail(f) = sigma.cwiseAbs2();
+  s.K = stiffness.asDiagonal();
+  s.M = mass.asDiagonal();
   const MatrixXd E = d.damping_root * s.N;
   s.C = E.transpose() * E;
   s.B = s.N.transpose() * d.B;
