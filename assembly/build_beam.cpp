@@ -39,32 +39,46 @@ ReducedBody set_into_frame(ReducedBody body, const BeamSource& beam) {
   return body;
 }
 
-// Keeps the modes that move in the x-y plane of the beam alone. A straight beam with principal axes has no others but
-// those that move out of it; what rounding mixed in between becomes an exact zero.
-ReducedBody in_plane(ReducedBody body, const BeamSource& beam) {
-  const fem::Mat6 R6 = fem::rotation6(beam_axes(beam));
+// Keeps the modes that move in the x-y plane alone, of a body in the beam's own axes. A straight beam with principal
+// axes has no others but those that move out of it; what rounding mixed in between becomes an exact zero.
+ReducedBody in_plane(ReducedBody body) {
   const fem::Vec6 inside{{1.0, 1.0, 0.0, 0.0, 0.0, 1.0}};
-  const fem::Mat6 P = R6 * inside.asDiagonal() * R6.transpose();
   std::vector<Eigen::Index> kept;
   for (Eigen::Index j = 0; j < body.n(); ++j) {
     double in = 0.0, all = 0.0;
     for (Eigen::Index k = 0; k + 6 <= body.node_shapes.rows(); k += 6) {
-      in += (P * body.node_shapes.col(j).segment<6>(k)).squaredNorm();
+      in += inside.cwiseProduct(body.node_shapes.col(j).segment<6>(k)).squaredNorm();
       all += body.node_shapes.col(j).segment<6>(k).squaredNorm();
     }
     if (in > 0.5 * all) kept.push_back(j);
   }
-  const Eigen::MatrixXd C = body.C;
   body.omega = body.omega(kept).eval();
   body.zeta = body.zeta(kept).eval();
-  if (C.size() > 0) body.C = C(kept, kept);
-  body.L = (body.L(kept, Eigen::all) * P).eval();
-  for (reduction::BodyPort& port : body.ports) port.Phi = (P * port.Phi(Eigen::all, kept)).eval();
+  body.L = (body.L(kept, Eigen::all) * inside.asDiagonal()).eval();
+  for (reduction::BodyPort& port : body.ports) port.Phi = (inside.asDiagonal() * port.Phi(Eigen::all, kept)).eval();
   body.node_shapes = body.node_shapes(Eigen::all, kept).eval();
   for (Eigen::Index k = 0; k + 6 <= body.node_shapes.rows(); k += 6)
-    body.node_shapes.middleRows<6>(k) = (P * body.node_shapes.middleRows<6>(k)).eval();
+    body.node_shapes.middleRows<6>(k) = (inside.asDiagonal() * body.node_shapes.middleRows<6>(k)).eval();
   body.certificate.left_out.emplace_back("all flexibility out of the x-y plane: the scene takes the beam as planar");
   return body;
+}
+
+// Reduced in its own axes, so stiff out of the plane that the modes asked for are those in it; the mass matrix is that
+// of the section as it is.
+ReducedBody planar(const SceneBody& body, const BeamSource& beam, const reduction::ReduceOptions& options) {
+  BeamSource own = beam;
+  own.from = Vec3::Zero();
+  own.to = (beam.to - beam.from).norm() * Vec3::UnitX();
+  own.section.orientation = Vec3::UnitY();
+  fem::Model model = beam_model(body, own);
+  const fem::MassProperties mass = fem::mass_properties(fem::assemble(model));
+  fem::BeamSection& section = model.beam_sections[0];
+  section.Iy = 1e6 * section.Iz;
+  section.J = 1e10 * section.Iz;
+  section.kappa_z = 0.0;  // rigid in shear across the plane
+  ReducedBody reduced = in_plane(reduction::reduce(fem::assemble(model), body.parent_port, options));
+  reduced.D = fem::rigid_mass(mass.mass, mass.centre - reduced.reference, mass.inertia);
+  return set_into_frame(std::move(reduced), beam);
 }
 
 ReducedBody analytic(const SceneBody& body, const BeamSource& beam) {
@@ -115,17 +129,14 @@ fem::Model beam_model(const SceneBody& body, const BeamSource& beam) {
 ReducedBody make_beam(const SceneBody& body, const BeamSource& beam, const BodyPlan& plan,
                       const reduction::Progress& progress) {
   if (beam.model != BeamSource::Model::fe) return analytic(body, beam);
-  fem::Model model = beam_model(body, beam);
-  const int elements = static_cast<int>(model.elements.size());
-  // out-of-plane bending must not share a frequency with bending in the plane, lest their modes mix
-  if (beam.planar) model.beam_sections[0].Iy = 1.7 * model.beam_sections[0].Iz;
   reduction::ReduceOptions options = plan.options;
   options.progress = progress;
-  if (beam.planar) options.modes *= 3;  // bending out of the plane and torsion are dropped afterwards
-  ReducedBody reduced = reduction::reduce(fem::assemble(model), body.parent_port, options);
+  ReducedBody reduced = beam.planar
+                            ? planar(body, beam, options)
+                            : reduction::reduce(fem::assemble(beam_model(body, beam)), body.parent_port, options);
   reduced.name = body.name;
-  reduced.certificate.elements = elements;
-  return beam.planar ? in_plane(std::move(reduced), beam) : reduced;
+  reduced.certificate.elements = beam.elements;
+  return reduced;
 }
 
 }  // namespace tenon::assembly
