@@ -44,18 +44,27 @@ struct Gaps {
   MatrixXd J;
 };
 
+// The body is joined to the root through the joint.
+bool hangs_beyond(const Network& network, const Placement& at, int body, int joint) {
+  for (int j = at.tree_joint[static_cast<std::size_t>(body)]; j >= 0;
+       j = at.tree_joint[static_cast<std::size_t>(body)]) {
+    if (j == joint) return true;
+    const Joint& inner = network.joints[static_cast<std::size_t>(j)];
+    body = inner.child.body == body ? inner.parent.body : inner.child.body;
+  }
+  return false;
+}
+
+// +1 when a tree joint turns the child side of a closing joint against its parent side, −1 the other way, 0 both or
+// none.
+double turns(const Network& network, const Placement& at, const Joint& closing, int joint) {
+  return (hangs_beyond(network, at, closing.child.body, joint) ? 1.0 : 0.0) -
+         (hangs_beyond(network, at, closing.parent.body, joint) ? 1.0 : 0.0);
+}
+
 Gaps gaps(const Network& network, const Placement& at, const std::vector<int>& unknown) {
   const auto rows = 6 * static_cast<Index>(at.closing_joints.size());
   Gaps g{VectorXd::Zero(rows), MatrixXd::Zero(rows, static_cast<Index>(unknown.size()))};
-  const auto hangs_beyond = [&](int body, int joint) {
-    for (int j = at.tree_joint[static_cast<std::size_t>(body)]; j >= 0;
-         j = at.tree_joint[static_cast<std::size_t>(body)]) {
-      if (j == joint) return true;
-      const Joint& inner = network.joints[static_cast<std::size_t>(j)];
-      body = inner.child.body == body ? inner.parent.body : inner.child.body;
-    }
-    return false;
-  };
   for (std::size_t c = 0; c < at.closing_joints.size(); ++c) {
     const Joint& closing = network.joints[static_cast<std::size_t>(at.closing_joints[c])];
     const PortFrame parent = frame(network, at, closing.parent), child = frame(network, at, closing.child);
@@ -65,9 +74,7 @@ Gaps gaps(const Network& network, const Placement& at, const std::vector<int>& u
     for (std::size_t k = 0; k < unknown.size(); ++k) {
       const Joint& joint = network.joints[static_cast<std::size_t>(unknown[k])];
       const bool outward = at.tree_joint[static_cast<std::size_t>(joint.child.body)] == unknown[k];
-      const int outer = outward ? joint.child.body : joint.parent.body;
-      const auto beyond = [&](const PortRef& ref) { return ref.body == outer || hangs_beyond(ref.body, unknown[k]); };
-      const double side = (beyond(closing.child) ? 1.0 : 0.0) - (beyond(closing.parent) ? 1.0 : 0.0);
+      const double side = turns(network, at, closing, unknown[k]);
       if (side == 0.0) continue;
       const Vec3 axis = (outward ? side : -side) * joint_axis(network, at, joint);
       const PortFrame hinge = frame(network, at, joint.parent);
@@ -95,6 +102,12 @@ Network close_angles(Network network) {
     if (network.joints[j].follows &&
         std::find(at.closing_joints.begin(), at.closing_joints.end(), static_cast<int>(j)) == at.closing_joints.end())
       unknown.push_back(static_cast<int>(j));
+  for (const int j : unknown)
+    if (std::none_of(at.closing_joints.begin(), at.closing_joints.end(),
+                     [&](int c) { return turns(network, at, network.joints[static_cast<std::size_t>(c)], j) != 0.0; }))
+      throw ModelError(fmt::format("joint '{}' is in no loop that could decide its angle",
+                                   network.joints[static_cast<std::size_t>(j)].name),
+                       "Write `angle` in place of `near`");
   double last = INFINITY;
   for (int step = 0; step < most_steps; ++step) {
     const Gaps g = gaps(network, at, unknown);

@@ -102,6 +102,28 @@ TEST(FourBar, PortAlgebraClosesTheLoop) {
   EXPECT_LT(transfer, 1e-8);
 }
 
+// Held in a plane, a beam of finite elements keeps the mass and all inertias of its section: ρ(Iy + Iz) l about itself.
+TEST(FourBar, PlanarBeamsKeepTheirMassMatrix) {
+  const ReducedBody& crank = four_bar(BeamSource::Model::fe).bodies[1];
+  const double rho = 2714.0, A = 1.0774e-4, l = 0.108, m = rho * A * l;
+  EXPECT_NEAR(crank.D(0, 0), m, 1e-12 * m);
+  EXPECT_NEAR(crank.D(5, 5), m * l * l / 3.0, 1e-9 * m * l * l);
+  EXPECT_NEAR(crank.D(4, 4), m * l * l / 3.0, 1e-9 * m * l * l);
+  EXPECT_NEAR(crank.D(3, 3), rho * (1e-9 + 1.6157746478873239e-10) * l, 1e-9 * rho * 1.16e-9 * l);
+  EXPECT_EQ(crank.ports[1].Phi.row(2).norm() + crank.ports[1].Phi.middleRows<2>(3).norm(), 0.0);
+}
+
+TEST(FourBar, AnAngleThatNoLoopDecidesIsRefused) {
+  Network network = four_bar(BeamSource::Model::polynomial);
+  network.joints.pop_back();  // open: a chain
+  try {
+    close_angles(network);
+    FAIL() << "left an angle undecided";
+  } catch (const ModelError& fault) {
+    EXPECT_NE(std::string(fault.what()).find("joint 'a' is in no loop"), std::string::npos) << fault.what();
+  }
+}
+
 TEST(FourBar, ALoopThatCannotCloseIsNamed) {
   Network network = four_bar(BeamSource::Model::polynomial);
   network.bodies[3].ports[1].position.x() = 0.05;  // too short a follower
