@@ -58,8 +58,6 @@ struct Builder {
   }
 };
 
-double length_of(const Placement& placement) { return placement.size > 0.0 ? placement.size : 1.0; }
-
 // E with EᵀE = C
 MatrixXd damping_root(const ReducedBody& body) {
   if (body.C.size() == 0) return Eigen::VectorXd((2.0 * body.zeta.cwiseProduct(body.omega)).cwiseSqrt()).asDiagonal();
@@ -87,23 +85,15 @@ void add_body(const Builder& b, int k, Rows& W, Rows& E, Rows& F) {
   E.next(m).middleCols(o + 6, m) = damping_root(body);
 }
 
-// 1 m, 1/length rad, and mode by mode the η that moves the most mobile port by about 1 m. (A mode that stands for a
-// massless direction moves its port many orders more than its neighbours.) A mode that hardly moves any port counts as
-// one of the body's whole mass, a thousandth of it.
+// 1 m, 1/length rad and the natural amplitude of each mode. (A mode that stands for a massless direction moves its port
+// many orders more than its neighbours.)
 void scale_body(const Builder& b, int k) {
   const ReducedBody& body = b.body(k);
   const Index o = b.offset(k);
-  const double length = length_of(b.d.placement);
-  const double mass = body.D(0, 0);
-  Eigen::RowVectorXd mobility = Eigen::RowVectorXd::Constant(body.n(), mass > 0.0 ? 1e-3 / std::sqrt(mass) : 1e-3);
-  if (body.n() > 0)
-    for (const reduction::BodyPort& port : body.ports) {
-      mobility = mobility.cwiseMax(port.Phi.topRows<3>().cwiseAbs().colwise().maxCoeff());
-      mobility = mobility.cwiseMax(length * port.Phi.bottomRows<3>().cwiseAbs().colwise().maxCoeff());
-    }
+  const double length = natural_length(b.d.placement);
   b.d.scale.segment<3>(o).setOnes();
   b.d.scale.segment<3>(o + 3).setConstant(1.0 / length);
-  b.d.scale.segment(o + 6, body.n()) = mobility.cwiseInverse().transpose();
+  b.d.scale.segment(o + 6, body.n()) = natural_amplitudes(body, length);
 }
 
 void add_joint_rows(const Builder& b, const Joint& joint, Rows& G) {

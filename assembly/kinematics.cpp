@@ -1,11 +1,25 @@
 #include "assembly/kinematics.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <cmath>
 
 namespace tenon::assembly {
 
 using fem::Mat6;
 using fem::Vec6;
+
+double natural_length(const Placement& placement) { return placement.size > 0.0 ? placement.size : 1.0; }
+
+Eigen::VectorXd natural_amplitudes(const ReducedBody& body, double length) {
+  const double mass = body.D(0, 0);
+  Eigen::RowVectorXd mobility = Eigen::RowVectorXd::Constant(body.n(), mass > 0.0 ? 1e-3 / std::sqrt(mass) : 1e-3);
+  if (body.n() > 0)
+    for (const reduction::BodyPort& port : body.ports) {
+      mobility = mobility.cwiseMax(port.Phi.topRows<3>().cwiseAbs().colwise().maxCoeff());
+      mobility = mobility.cwiseMax(length * port.Phi.bottomRows<3>().cwiseAbs().colwise().maxCoeff());
+    }
+  return mobility.cwiseInverse().transpose();
+}
 
 Eigen::MatrixXd port_rows(const ReducedBody& body, int port, const Mat3& R) {
   const reduction::BodyPort& p = body.ports[static_cast<std::size_t>(port)];

@@ -9,6 +9,13 @@
 /// names of channels.
 namespace tenon::assembly {
 
+/// A length to weigh rotations against translations: the scene's size, 1 m for a scene that is a point.
+double natural_length(const Placement& placement);
+
+/// Of each mode the η that moves the most mobile port by about 1 m, rotations times the length. A mode that hardly
+/// moves any port counts as one of the body's whole mass, a thousandth of it.
+Eigen::VectorXd natural_amplitudes(const ReducedBody& body, double length);
+
 /// Motion of a port in world axes over (x_ref in world axes, η): x_port = [τ  R Phi] (x_ref; η), 6×(6+n), eq (2) of the
 /// TITOP paper.
 Eigen::MatrixXd port_rows(const ReducedBody& body, int port, const Mat3& R);

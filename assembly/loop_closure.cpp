@@ -142,7 +142,7 @@ struct Held {
 Held held_rows(const Network& network, const OpenLoops& open, const PortTree& tree, const StateSpace& ss,
                const LoopCoordinates& c) {
   const auto nu = static_cast<Index>(network.inputs.size()), ny = static_cast<Index>(network.outputs.size());
-  const double length = tree.placement.size > 0.0 ? tree.placement.size : 1.0;
+  const double length = natural_length(tree.placement);
   // accelerations by wrenches at the cuts: of their sides, translations and rotations; and of one against the other
   double size[2] = {0.0, 0.0};
   const auto probes = static_cast<Index>(open.outputs.size());

@@ -14,7 +14,7 @@ using fem::Mat6X;
 
 LoopCoordinates loop_coordinates(const Network& network, const OpenLoops& open, const PortTree& tree) {
   LoopCoordinates c;
-  const double length = tree.placement.size > 0.0 ? tree.placement.size : 1.0;
+  const double length = natural_length(tree.placement);
   std::vector<double> scale;
   const auto add = [&](int& first, Index count, double size) {
     first = static_cast<int>(scale.size());
@@ -36,13 +36,7 @@ LoopCoordinates loop_coordinates(const Network& network, const OpenLoops& open, 
     const auto b = static_cast<std::size_t>(branch.body);
     const ReducedBody& body = tree.bodies[b];
     c.body[b] = static_cast<int>(scale.size());
-    for (int m = 0; m < body.n(); ++m) {  // η that moves the most mobile port by about 1 m
-      double mobility = body.D(0, 0) > 0.0 ? 1e-3 / std::sqrt(body.D(0, 0)) : 1e-3;
-      for (const reduction::BodyPort& port : body.ports)
-        mobility = std::max({mobility, port.Phi.col(m).head<3>().cwiseAbs().maxCoeff(),
-                             length * port.Phi.col(m).tail<3>().cwiseAbs().maxCoeff()});
-      scale.push_back(1.0 / mobility);
-    }
+    for (const double amplitude : natural_amplitudes(body, length)) scale.push_back(amplitude);
   }
   for (std::size_t k = 0; k < open.closures.size(); ++k)
     if (const int j = open.closures[k].joint;
