@@ -22,9 +22,6 @@ struct PortAlgebra {
 /// among them); each points to the second-order route.
 PortAlgebra port_algebra(const Network& network);
 
-/// Eigenvalues of A, balanced [rad/s].
-Eigen::VectorXcd poles(const PortAlgebra& system);
-
 /// Natural frequencies from the poles of A [rad/s], ascending: |λ| of each oscillating pair; real poles (overdamped or
 /// without stiffness) and double integrators are left out. The undamped ones when the network has no damping.
 Eigen::VectorXd frequencies(const PortAlgebra& system);

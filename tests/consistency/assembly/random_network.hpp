@@ -9,6 +9,16 @@
 /// Random trees of physically consistent bodies, reproducible from a seed.
 namespace tenon::assembly::testing {
 
+/// The same network without dampers, in bodies and in joints.
+inline Network undamped(Network net) {
+  for (ReducedBody& body : net.bodies) {
+    body.zeta.setZero();
+    body.C.resize(0, 0);
+  }
+  for (Joint& joint : net.joints) joint.damping = 0.0;
+  return net;
+}
+
 class RandomNetwork {
  public:
   explicit RandomNetwork(unsigned seed) : engine_(seed) {}

@@ -12,27 +12,20 @@
 #include "assembly/second_order.hpp"
 #include "fem/error.hpp"
 #include "random_network.hpp"
+#include "titop/poles_zeros.hpp"
 
 using namespace tenon::assembly;
 using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using tenon::assembly::testing::RandomNetwork;
+using tenon::assembly::testing::undamped;
 
 namespace {
 
 constexpr unsigned scenes = 250;  // a shard; four shards
 // Condition of a channel inversion up to which round-off stays below 1e-8 of 1e-3, the floor of a response.
 constexpr double reliable = 1e-8 * 1e-3 / 2.2e-16;
-
-Network undamped(Network net) {
-  for (ReducedBody& body : net.bodies) {
-    body.zeta.setZero();
-    body.C.resize(0, 0);
-  }
-  for (Joint& joint : net.joints) joint.damping = 0.0;
-  return net;
-}
 
 int rank(const MatrixXd& A) {
   if (A.rows() == 0) return 0;
@@ -95,7 +88,7 @@ void compare(const Network& net, Worst& worst) {
       std::min(1.0, reliable / ports.worst_condition);  // what is reported as ill-conditioned is as wrong
   if (a.size() == 0) return;
   worst.frequency = std::max(worst.frequency, ((a - b).array() / a.array()).abs().maxCoeff());
-  worst.real_part = std::max(worst.real_part, poles(ports).real().maxCoeff() / a[0]);
+  worst.real_part = std::max(worst.real_part, tenon::titop::poles(ports.ss).real().maxCoeff() / a[0]);
   for (Eigen::Index i = 1; i < a.size(); ++i) {
     if (a[i] < 1.01 * a[i - 1]) continue;
     const double omega = std::sqrt(a[i - 1] * a[i]);

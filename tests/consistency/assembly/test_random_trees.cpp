@@ -12,19 +12,11 @@ using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using tenon::assembly::testing::RandomNetwork;
+using tenon::assembly::testing::undamped;
 
 namespace {
 
 constexpr int trees = 40;  // of each of the two kinds
-
-Network undamped(Network net) {
-  for (ReducedBody& body : net.bodies) {
-    body.zeta.setZero();
-    body.C.resize(0, 0);
-  }
-  for (Joint& joint : net.joints) joint.damping = 0.0;
-  return net;
-}
 
 // Rigid motions and flexible modes a tree must have: counted from its parts, not from any spectrum.
 std::pair<int, int> expected_modes(const Network& net) {
