@@ -34,6 +34,20 @@ inline Network two_inertias(double J1, double J2, double k) {
   return net;
 }
 
+/// A rigid bar of 2 kg and 1 m with its mass in the middle, ports p and q at its ends, turned by `axes`.
+inline ReducedBody rigid_bar(const char* name, const fem::Mat3& axes = fem::Mat3::Identity()) {
+  return reduction::rigid_body(name, 2.0, axes * fem::Vec3(0.5, 0.0, 0.0), 0.2 * fem::Mat3::Identity(),
+                               {{"p", fem::Vec3::Zero(), axes, {}}, {"q", axes * fem::Vec3::UnitX(), axes, {}}});
+}
+
+inline Joint weld(const char* name, PortRef parent, PortRef child) {
+  Joint joint;
+  joint.name = name;
+  joint.parent = parent;
+  joint.child = child;
+  return joint;
+}
+
 /// A rigid hub with two uniform clamped-free beams welded on opposite sides, all at one point; hub mass and polar
 /// inertia are `ratio` times those of both beams as rigid bodies.
 inline Network hub_and_panels(double ratio, int modes) {

@@ -3,26 +3,14 @@
 #include <gtest/gtest.h>
 
 #include "assembly/reactions.hpp"
+#include "tests/reference/networks.hpp"
 
 using namespace tenon;
 using namespace tenon::assembly;
-using fem::Mat3;
-using fem::Vec3;
+using tenon::reference::rigid_bar;
+using tenon::reference::weld;
 
 namespace {
-
-ReducedBody bar(const char* name) {
-  return reduction::rigid_body(name, 2.0, Vec3(0.5, 0.0, 0.0), 0.2 * Mat3::Identity(),
-                               {{"p", Vec3::Zero(), Mat3::Identity(), {}}, {"q", Vec3::UnitX(), Mat3::Identity(), {}}});
-}
-
-Joint weld(const char* name, PortRef parent, PortRef child) {
-  Joint joint;
-  joint.name = name;
-  joint.parent = parent;
-  joint.child = child;
-  return joint;
-}
 
 double of(const Reactions& r, const std::string& name) {
   for (std::size_t k = 0; k < r.names.size(); ++k)
@@ -36,7 +24,7 @@ double of(const Reactions& r, const std::string& name) {
 // Two bars in a row held at the root, a unit force across the far tip: force −1 and moment by the arm.
 TEST(Reactions, StaticsOfACantilever) {
   Network net;
-  net.bodies = {bar("inner"), bar("outer")};
+  net.bodies = {rigid_bar("inner"), rigid_bar("outer")};
   net.joints = {weld("middle", {0, 1}, {1, 0})};
   net.ground = {{0, 0}};
   net.inputs = {{"push", PortRef{1, 1}, 1, {}}};
@@ -51,7 +39,7 @@ TEST(Reactions, StaticsOfACantilever) {
 // A free chain pushed at one end through its centre: each joint passes the force of the mass beyond it.
 TEST(Reactions, InertiaBeyondAJoint) {
   Network net;
-  net.bodies = {bar("a"), bar("b"), bar("c")};
+  net.bodies = {rigid_bar("a"), rigid_bar("b"), rigid_bar("c")};
   net.joints = {weld("ab", {0, 1}, {1, 0}), weld("bc", {1, 1}, {2, 0})};
   net.inputs = {{"push", PortRef{0, 0}, 0, {}}};
   const Reactions r = reactions(net, second_order(net), 3.0);
@@ -62,7 +50,7 @@ TEST(Reactions, InertiaBeyondAJoint) {
 // Two bars side by side, welded at both ends: only the sum over both welds is determined; least norm shares it equally.
 TEST(Reactions, RedundantLoopIsSaidToBeIndeterminate) {
   Network net;
-  net.bodies = {bar("a"), bar("b")};
+  net.bodies = {rigid_bar("a"), rigid_bar("b")};
   net.joints = {weld("first", {0, 0}, {1, 0}), weld("second", {0, 1}, {1, 1})};
   net.inputs = {{"push", PortRef{0, 0}, 0, {}}};
   const Reactions r = reactions(net, second_order(net), 1.0);

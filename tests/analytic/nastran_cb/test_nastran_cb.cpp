@@ -15,12 +15,13 @@
 #include "fem/structure.hpp"
 #include "reduction/modes.hpp"
 #include "reduction/reduce.hpp"
+#include "tests/unit/fem/formats/nastran/reference_decks.hpp"
 
 using namespace tenon;
 
 namespace {
 
-const std::filesystem::path folder = std::filesystem::path(TENON_SOURCE_DIR) / ".." / "shared" / "data" / "nastran-cb";
+const std::filesystem::path folder = fem::shared_deck("");
 
 /// Eigenvalues [rad²/s²] that Nastran printed for one of the decks.
 std::vector<double> printed(const std::string& deck) {
@@ -39,7 +40,8 @@ std::vector<double> printed(const std::string& deck) {
 class NastranCb : public testing::Test {
  protected:
   void SetUp() override {
-    if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the decks of nastran-cb are not beside this checkout";
+    if (!std::filesystem::exists(folder / "full.dat"))
+      GTEST_SKIP() << fem::decks_absent;  // they are NX Nastran's, may not be copied into the project
   }
 
   static fem::Model with_ports(const std::string& deck) {

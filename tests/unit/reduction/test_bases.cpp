@@ -3,6 +3,7 @@
 
 #include "fem/error.hpp"
 #include "reduction/reduce.hpp"
+#include "tests/refusal.hpp"
 #include "tests/unit/reduction/beams.hpp"
 
 using namespace tenon;
@@ -15,16 +16,6 @@ namespace {
 
 constexpr Basis with_statics[] = {Basis::craig_bampton, Basis::craig_bampton_inertia_relief, Basis::clamped_free_static,
                                   Basis::rubin};
-
-template <class Work>
-std::string refusal(Work work) {
-  try {
-    work();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
-}
 
 Mat6 flexibility(const ReducedBody& body, int port) {
   const Mat6X& Phi = body.ports[static_cast<std::size_t>(port)].Phi;

@@ -4,26 +4,13 @@
 #include "fem/error.hpp"
 #include "reduction/modes.hpp"
 #include "reduction/reduce.hpp"
+#include "tests/refusal.hpp"
 #include "tests/unit/reduction/beams.hpp"
 
 using namespace tenon;
 using namespace tenon::reduction;
 using namespace tenon::tests;
 using testing::HasSubstr;
-
-namespace {
-
-template <class Work>
-std::string refusal(Work work) {
-  try {
-    work();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
-}
-
-}  // namespace
 
 TEST(Reduce, RigidMassMatrixAndFramesOfTheBody) {
   const BeamData data;
