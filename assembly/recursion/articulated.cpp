@@ -1,0 +1,250 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "assembly/recursion/sweeps.hpp"
+#include "fem/error.hpp"
+
+namespace tenon::assembly {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+using fem::shift_inertia;
+using fem::shift_twist;
+using fem::shift_wrench;
+
+namespace {
+
+constexpr double least_pivot = 1e-13;  // of the diagonal before elimination: below, what is left is round-off
+
+[[noreturn]] void no_inertia(const HingedBody& b, const std::string& what) {
+  throw ModelError(fmt::format("{} of body '{}' has no inertia to move", what, b.name),
+                   "Give the body (or what hangs on it) mass there, the hinge a rotor inertia, or lock it");
+}
+
+// L11 L11ᵀ = D_f in place, lower
+void factor_modes(const HingedBody& b, Eigen::MatrixXd& L) {
+  const Index n = L.rows();
+  for (Index j = 0; j < n; ++j) {
+    const double before = L(j, j);
+    double pivot = before;
+    for (Index k = 0; k < j; ++k) pivot -= L(j, k) * L(j, k);
+    if (!(pivot > least_pivot * before)) no_inertia(b, fmt::format("mode {}", j + 1));
+    const double root = std::sqrt(pivot), inverse = 1.0 / root;
+    for (Index k = 0; k < j; ++k) {
+      const double factor = L(j, k);
+      for (Index i = j + 1; i < n; ++i) L(i, j) -= factor * L(i, k);
+    }
+    L(j, j) = root;
+    for (Index i = j + 1; i < n; ++i) L(i, j) *= inverse;
+  }
+}
+
+// x ← L⁻¹ x
+void lower_solve(const Eigen::MatrixXd& L, VectorXd& x) {
+  const Index n = L.rows();
+  for (Index j = 0; j < n; ++j) {
+    x[j] /= L(j, j);
+    for (Index i = j + 1; i < n; ++i) x[i] -= L(i, j) * x[j];
+  }
+}
+
+// x ← L⁻ᵀ x
+void upper_solve(const Eigen::MatrixXd& L, VectorXd& x) {
+  for (Index j = L.rows() - 1; j >= 0; --j) {
+    for (Index i = j + 1; i < L.rows(); ++i) x[j] -= L(i, j) * x[i];
+    x[j] /= L(j, j);
+  }
+}
+
+// The modes of body k out of its articulated inertia: D_f, μ, P_R of eq (63).
+void eliminate_modes(const HingedBody& b, const ImplicitTerms& implicit, BodySweep& s) {
+  const Index n = b.modes();
+  s.P_R = s.P_rr;
+  if (n == 0) return;
+  if (s.Pi_F.cols() > 0) {  // H_f = [1, −Π_Fᵀ]: D_f = P_ff − P_fr Π_F − Π_Fᵀ P_rf + Π_Fᵀ P_rr Π_F, μ = P_rf − P_rr Π_F
+    s.L21.noalias() = -0.5 * s.P_rr * s.Pi_F;
+    s.L21 += s.P_rf;
+    for (Index j = 0; j < n; ++j)
+      for (Index i = j; i < n; ++i) s.L11(i, j) -= s.L21.col(i).dot(s.Pi_F.col(j)) + s.L21.col(j).dot(s.Pi_F.col(i));
+    s.L21.noalias() = s.P_rf;
+    s.L21.noalias() -= s.P_rr * s.Pi_F;
+  } else {
+    s.L21 = s.P_rf;
+  }
+  if (implicit.damping != 0.0 || implicit.stiffness != 0.0) {
+    const ReducedBody& body = *b.body;
+    if (body.C.size() > 0) s.L11.triangularView<Eigen::Lower>() += implicit.damping * body.C;
+    for (Index i = 0; i < n; ++i) {
+      const double w = body.omega[i];
+      s.L11(i, i) += implicit.stiffness * w * w + (body.C.size() > 0 ? 0.0 : implicit.damping * 2.0 * body.zeta[i] * w);
+    }
+  }
+  factor_modes(b, s.L11);
+  for (Index j = 0; j < n; ++j) {  // L21 = μ L11⁻ᵀ
+    for (Index k = 0; k < j; ++k) s.L21.col(j) -= s.L11(j, k) * s.L21.col(k);
+    s.L21.col(j) /= s.L11(j, j);
+  }
+  for (Index j = 0; j < n; ++j) s.P_R -= s.L21.col(j) * s.L21.col(j).transpose();
+}
+
+// The hinge of body k: D_R, G_R, P_R⁺ of eq (63); D_R is left as its Cholesky factor.
+void eliminate_hinge(const HingedBody& b, const ImplicitTerms& implicit, BodySweep& s) {
+  const Index r = b.dofs();
+  s.P_plus = s.P_R;
+  if (r == 0) return;
+  HingeMap U(6, r);
+  for (Index j = 0; j < r; ++j) U.col(j).noalias() = s.P_R * s.H_F.col(j);
+  for (Index j = 0; j < r; ++j) {
+    double size = 0.0;  // what the pivot is left of
+    for (Index i = 0; i < 6; ++i) size += s.H_F(i, j) * s.H_F(i, j) * std::abs(s.P_rr(i, i));
+    for (Index i = j; i < r; ++i) s.D_R(i, j) = s.H_F.col(i).dot(U.col(j));
+    s.D_R(j, j) += b.inertia[j] + implicit.damping * b.damping[j] + implicit.stiffness * b.stiffness[j];
+    if (!(s.D_R(j, j) > least_pivot * size))
+      no_inertia(b, fmt::format("degree of freedom {} of the {} hinge", j + 1, name(b.kind)));
+  }
+  for (Index j = 0; j < r; ++j) {
+    const double before = s.D_R(j, j);
+    for (Index k = 0; k < j; ++k) s.D_R(j, j) -= s.D_R(j, k) * s.D_R(j, k);
+    if (!(s.D_R(j, j) > least_pivot * before))
+      no_inertia(b, fmt::format("degree of freedom {} of the {} hinge", j + 1, name(b.kind)));
+    s.D_R(j, j) = std::sqrt(s.D_R(j, j));
+    for (Index i = j + 1; i < r; ++i) {
+      for (Index k = 0; k < j; ++k) s.D_R(i, j) -= s.D_R(i, k) * s.D_R(j, k);
+      s.D_R(i, j) /= s.D_R(j, j);
+    }
+  }
+  for (Index j = 0; j < r; ++j) {  // U ← U D_R^{-T/2}, so that P_R⁺ = P_R − U Uᵀ
+    for (Index k = 0; k < j; ++k) U.col(j) -= s.D_R(j, k) * U.col(k);
+    U.col(j) /= s.D_R(j, j);
+    s.P_plus -= U.col(j) * U.col(j).transpose();
+  }
+  s.G_R = U;
+  for (Index j = r - 1; j >= 0; --j) {  // G_R = P_R H_F* D_R⁻¹
+    for (Index k = j + 1; k < r; ++k) s.G_R.col(j) -= s.D_R(k, j) * s.G_R.col(k);
+    s.G_R.col(j) /= s.D_R(j, j);
+  }
+}
+
+// ν ← D_R⁻¹ ν
+void solve_hinge(const BodySweep& s, VectorXd& nu) {
+  const Index r = nu.size();
+  for (Index j = 0; j < r; ++j) {
+    for (Index k = 0; k < j; ++k) nu[j] -= s.D_R(j, k) * nu[k];
+    nu[j] /= s.D_R(j, j);
+  }
+  for (Index j = r - 1; j >= 0; --j) {
+    for (Index k = j + 1; k < r; ++k) nu[j] -= s.D_R(k, j) * nu[k];
+    nu[j] /= s.D_R(j, j);
+  }
+}
+
+// Γ of a child onto its parent: P(p) += 𝓐 Γ 𝓐*
+void add_to_parent(const BodySweep& child, BodySweep& parent) {
+  const Mat6 Gamma = child.X.inertia(child.P_plus);  // about node t, in the parent's axes
+  parent.P_rr += shift_inertia(Gamma, child.to_node);
+  const Index n = child.Pi_t.cols();
+  for (Index j = 0; j < n; ++j) {
+    const Vec6 W = Gamma * child.Pi_t.col(j);
+    for (Index i = j; i < n; ++i) parent.L11(i, j) += child.Pi_t.col(i).dot(W);
+    parent.P_rf.col(j) += shift_wrench(W, child.to_node);
+  }
+}
+
+}  // namespace
+
+void articulate(const Multibody& system, Sweeps& sweeps, const ImplicitTerms& implicit) {
+  const auto count = static_cast<int>(system.bodies.size());
+  for (BodySweep& s : sweeps.bodies) {
+    const Index n = s.L11.rows();
+    s.P_rr = s.M.bottomRightCorner<6, 6>();
+    if (n == 0) continue;
+    s.L11 = s.M.topLeftCorner(n, n);
+    s.P_rf = s.M.bottomLeftCorner(6, n);
+  }
+  for (int k = count - 1; k >= 0; --k) {
+    const HingedBody& b = system.bodies[static_cast<std::size_t>(k)];
+    BodySweep& s = sweeps.bodies[static_cast<std::size_t>(k)];
+    eliminate_modes(b, implicit, s);
+    eliminate_hinge(b, implicit, s);
+    if (b.parent >= 0) add_to_parent(s, sweeps.bodies[static_cast<std::size_t>(b.parent)]);
+  }
+}
+
+namespace {
+
+// Eq (64); without motion: no a_m, no b_m, base at rest.
+template <bool Motion>
+void sweep(const Multibody& system, Sweeps& sweeps, const VectorXd& T, VectorXd& v_dot) {
+  const auto count = static_cast<int>(system.bodies.size());
+  for (BodySweep& s : sweeps.bodies) {
+    const Index n = s.z_f.size();
+    if constexpr (Motion) {
+      s.z_f = s.b.head(n);
+      s.z_r = s.b.tail<6>();
+    } else {
+      s.z_f.setZero();
+      s.z_r.setZero();
+    }
+  }
+  for (int k = count - 1; k >= 0; --k) {  // tip to base
+    const HingedBody& b = system.bodies[static_cast<std::size_t>(k)];
+    BodySweep& s = sweeps.bodies[static_cast<std::size_t>(k)];
+    const Index n = b.modes(), r = b.dofs(), first = system.v_offset[static_cast<std::size_t>(k)];
+    Vec6 z = s.z_r;  // z_R
+    if (n > 0) {
+      s.y = T.segment(first, n) - s.z_f;  // ε_f
+      for (Index i = 0; i < s.Pi_F.cols(); ++i) s.y[i] += s.Pi_F.col(i).dot(s.z_r);
+      lower_solve(s.L11, s.y);
+      for (Index i = 0; i < n; ++i) z += s.y[i] * s.L21.col(i);  // g ε_f
+    }
+    if constexpr (Motion) z.noalias() += s.P_R * s.a;
+    s.z_plus = z;
+    for (Index j = 0; j < r; ++j) {
+      s.nu_R[j] = T[first + n + j] - s.H_F.col(j).dot(z);  // ε_R
+      s.z_plus += s.nu_R[j] * s.G_R.col(j);
+    }
+    solve_hinge(s, s.nu_R);
+    if (b.parent >= 0) {
+      BodySweep& parent = sweeps.bodies[static_cast<std::size_t>(b.parent)];
+      const Vec6 at_node = s.X.wrench(s.z_plus);
+      parent.z_r += shift_wrench(at_node, s.to_node);
+      for (Index i = 0; i < s.Pi_t.cols(); ++i) parent.z_f[i] += s.Pi_t.col(i).dot(at_node);
+    }
+  }
+  Vec6 base = Vec6::Zero();
+  if constexpr (Motion) base.head<3>() = -system.gravity;
+  for (int k = 0; k < count; ++k) {  // base to tip
+    const HingedBody& b = system.bodies[static_cast<std::size_t>(k)];
+    BodySweep& s = sweeps.bodies[static_cast<std::size_t>(k)];
+    const Index n = b.modes(), r = b.dofs(), first = system.v_offset[static_cast<std::size_t>(k)];
+    Vec6 at_node = base;
+    if (b.parent >= 0) {
+      const auto p = static_cast<std::size_t>(b.parent);
+      at_node = shift_twist(sweeps.bodies[p].alpha, s.to_node);
+      for (Index i = 0; i < s.Pi_t.cols(); ++i) at_node += v_dot[system.v_offset[p] + i] * s.Pi_t.col(i);
+    }
+    s.alpha = s.X.twist(at_node);  // α_R⁺
+    for (Index j = 0; j < r; ++j) v_dot[first + n + j] = s.nu_R[j] - s.G_R.col(j).dot(s.alpha);
+    for (Index j = 0; j < r; ++j) s.alpha += v_dot[first + n + j] * s.H_F.col(j);
+    if constexpr (Motion) s.alpha += s.a;
+    if (n > 0) {
+      for (Index i = 0; i < n; ++i) s.y[i] -= s.L21.col(i).dot(s.alpha);
+      upper_solve(s.L11, s.y);
+      v_dot.segment(first, n) = s.y;  // η̈ = ν_f − g* α_R
+      for (Index i = 0; i < s.Pi_F.cols(); ++i) s.alpha -= s.y[i] * s.Pi_F.col(i);
+    }
+  }
+}
+
+}  // namespace
+
+void forward_dynamics(const Multibody& system, Sweeps& sweeps, const VectorXd& T, VectorXd& v_dot) {
+  sweep<true>(system, sweeps, T, v_dot);
+}
+
+void solve(const Multibody& system, Sweeps& sweeps, const VectorXd& f, VectorXd& x) {
+  sweep<false>(system, sweeps, f, x);
+}
+
+}  // namespace tenon::assembly

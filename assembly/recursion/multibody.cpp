@@ -1,0 +1,69 @@
+#include "assembly/recursion/multibody.hpp"
+
+#include <fmt/format.h>
+
+#include "fem/error.hpp"
+
+namespace tenon::assembly {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace {
+
+void check(const Multibody& system, std::size_t k) {
+  const HingedBody& b = system.bodies[k];
+  const auto refuse = [&](const std::string& what, const std::string& cure) {
+    throw ModelError(fmt::format("body '{}' {}", b.name, what), cure);
+  };
+  if (!b.body) refuse("has no data", "Give it a reduced body");
+  if (b.parent >= static_cast<int>(k)) refuse("comes before its parent", "List parents before children");
+  const auto has_port = [](const ReducedBody& body, int port) {
+    return port >= 0 && port < static_cast<int>(body.ports.size());
+  };
+  if (b.parent >= 0 && !has_port(*system.bodies[static_cast<std::size_t>(b.parent)].body, b.inner_port))
+    refuse("hangs on a port that its parent does not have", "Name one of the parent's ports");
+  if (b.outer_port >= 0 && !has_port(*b.body, b.outer_port))
+    refuse("hangs by a port that it does not have", "Name one of its own ports");
+  for (const VectorXd* values : {&b.stiffness, &b.damping, &b.inertia})
+    if (values->size() != b.dofs() || !values->allFinite() || (values->array() < 0.0).any())
+      refuse(fmt::format("needs {} non-negative numbers for each of stiffness, damping and inertia of its {} hinge",
+                         b.dofs(), name(b.kind)),
+             "Give one a degree of freedom");
+}
+
+}  // namespace
+
+void index(Multibody& system) {
+  system.q_offset.clear();
+  system.v_offset.clear();
+  system.nq = system.nv = 0;
+  for (std::size_t k = 0; k < system.bodies.size(); ++k) {
+    HingedBody& b = system.bodies[k];
+    for (VectorXd* values : {&b.stiffness, &b.damping, &b.inertia})
+      if (values->size() == 0) *values = VectorXd::Zero(b.dofs());
+    check(system, k);
+    system.q_offset.push_back(system.nq);
+    system.v_offset.push_back(system.nv);
+    system.nq += b.modes() + hinge_coordinates(b.kind);
+    system.nv += b.modes() + b.dofs();
+  }
+}
+
+MotionState rest_state(const Multibody& system) {
+  MotionState state{VectorXd::Zero(system.nq), VectorXd::Zero(system.nv)};
+  for (std::size_t k = 0; k < system.bodies.size(); ++k)
+    rest(system.bodies[k].kind, state.q.data() + system.q_offset[k] + system.bodies[k].modes());
+  return state;
+}
+
+void move(const Multibody& system, const VectorXd& delta, VectorXd& q) {
+  for (std::size_t k = 0; k < system.bodies.size(); ++k) {
+    const HingedBody& b = system.bodies[k];
+    const Index n = b.modes();
+    q.segment(system.q_offset[k], n) += delta.segment(system.v_offset[k], n);
+    move(b.kind, delta.data() + system.v_offset[k] + n, q.data() + system.q_offset[k] + n);
+  }
+}
+
+}  // namespace tenon::assembly

@@ -1,0 +1,59 @@
+#pragma once
+
+#include "assembly/recursion/multibody.hpp"
+#include "tests/consistency/assembly/random_network.hpp"
+
+/// Random trees on hinges of every kind, reproducible from a seed.
+namespace tenon::assembly::testing {
+
+struct RandomMultibody {
+  RandomNetwork random;
+  explicit RandomMultibody(unsigned seed) : random(seed) {}
+
+  Eigen::VectorXd vector(Eigen::Index n, double size) { return size * random.matrix(n, 1); }
+
+  /// 1 to `most` bodies; a chain or a tree, fixed or free base, hinges of 0 to 6 degrees of freedom on any port.
+  Multibody system(int most, Deformation deformation) {
+    Multibody mb;
+    const int count = random.integer(1, most);
+    const bool chain = random.chance(0.5);
+    mb.gravity = random.vector(10.0);
+    for (int k = 0; k < count; ++k) {
+      HingedBody b;
+      const ReducedBody body = random.body("body" + std::to_string(k), random.chance(0.4));
+      const auto ports = static_cast<int>(body.ports.size());
+      b.name = body.name;
+      b.body = std::make_shared<const ReducedBody>(body);
+      b.deformation = deformation;
+      b.kind = static_cast<HingeKind>(random.integer(0, 7));
+      b.parent = k == 0 ? -1 : chain ? k - 1 : random.integer(-1, k - 1);
+      b.reversed = random.chance(0.3);
+      b.inner_axes = random.rotation();
+      b.outer_axes = random.rotation();
+      b.inner_position = random.vector(1.0);
+      b.outer_port = random.integer(body.kind == ReducedBody::Kind::free_free ? -1 : 0, ports - 1);
+      if (b.parent >= 0)
+        b.inner_port =
+            random.integer(0, static_cast<int>(mb.bodies[static_cast<std::size_t>(b.parent)].body->ports.size()) - 1);
+      b.stiffness = Eigen::VectorXd::NullaryExpr(b.dofs(), [&] { return random.log_uniform(1.0, 1e3); });
+      b.damping = Eigen::VectorXd::NullaryExpr(b.dofs(), [&] { return random.log_uniform(0.01, 1.0); });
+      b.inertia = Eigen::VectorXd::NullaryExpr(b.dofs(), [&] { return random.chance(0.3) ? 0.2 : 0.0; });
+      mb.bodies.push_back(std::move(b));
+    }
+    index(mb);
+    return mb;
+  }
+
+  /// Large motion of the hinges, small of the modes.
+  MotionState state(const Multibody& mb, double deflection = 0.05) {
+    MotionState s = rest_state(mb);
+    Eigen::VectorXd delta = vector(mb.nv, 2.0);
+    s.v = vector(mb.nv, 1.0);
+    for (std::size_t k = 0; k < mb.bodies.size(); ++k)
+      delta.segment(mb.v_offset[k], mb.bodies[k].modes()) *= deflection;
+    move(mb, delta, s.q);
+    return s;
+  }
+};
+
+}  // namespace tenon::assembly::testing
