@@ -9,11 +9,12 @@ namespace tenon::assembly {
 /// Rows of all closures at a state, translations in m, rotations times the system's size in m. Sized once by
 /// make_closure_rows(); closure_rows() allocates nothing.
 struct ClosureRows {
-  Eigen::VectorXd gap;    ///< m: what is missing in position
-  Eigen::VectorXd rate;   ///< m: J χ
-  Eigen::VectorXd gamma;  ///< m: J̇ χ
-  Eigen::MatrixXd J_t;    ///< nv×m: Jᵀ
-  double length = 1.0;    ///< that weighs rotations [m]
+  Eigen::VectorXd gap;        ///< m: what is missing in position
+  Eigen::VectorXd rate;       ///< m: J χ
+  Eigen::VectorXd gamma;      ///< m: J̇ χ
+  Eigen::MatrixXd J_t;        ///< nv×m: Jᵀ
+  double length = 1.0;        ///< that weighs rotations [m]
+  std::vector<Mat6X> shapes;  ///< scratch: shapes at the ports
   int rows() const { return static_cast<int>(gap.size()); }
 };
 
@@ -26,7 +27,8 @@ void closure_rows(const Multibody& system, const Sweeps& sweeps, const Eigen::Ve
 /// Λ⁻¹ = J 𝓜⁻¹ Jᵀ with its redundant directions set apart.
 struct ClosureInertia {
   Eigen::MatrixXd X;          ///< nv×m: 𝓜⁻¹ Jᵀ
-  Eigen::MatrixXd Q;          ///< m×rank: eigenvectors of Λ⁻¹ that count
+  Eigen::VectorXd scale;      ///< m: of the rows, so that Λ⁻¹ has a unit diagonal
+  Eigen::MatrixXd Q;          ///< m×rank: eigenvectors of the scaled Λ⁻¹ that count
   Eigen::VectorXd inverse;    ///< rank: 1/eigenvalue
   Eigen::MatrixXd redundant;  ///< m×(m − rank): directions in which multipliers are indeterminate
 };

@@ -75,8 +75,17 @@ MotionState rest_state(const Multibody& system);
 /// q ← q moved by δ (nv displacements), hinge by hinge: attitudes on their group.
 void move(const Multibody& system, const Eigen::VectorXd& delta, Eigen::VectorXd& q);
 
-/// The tree or loops of a network; placed as it is placed, at rest. Lumped masses become bodies welded to their ports.
-/// The hinges that close loops, and every grounded port but the first of a piece, become closures.
-Multibody make_multibody(const Network& network);
+/// A network as a system of bodies on hinges, and where its items went.
+struct NetworkMultibody {
+  Multibody system;
+  std::vector<int> body;     ///< of each body of the network: its index
+  std::vector<int> hinge;    ///< of each joint: the body that hangs by it, −1 when it closes a loop
+  std::vector<int> closure;  ///< of each joint: its closure, −1 when it is a hinge of the tree
+};
+
+/// Placed as the network is placed: at rest every hinge stands at zero, its joint at its angle. Lumped masses become
+/// bodies welded to their ports. Joints that close loops, and grounded ports but the first of a piece, become closures;
+/// a drive in a closure is refused. Throws ModelError naming the joint, and what place() throws.
+NetworkMultibody make_multibody(const Network& network);
 
 }  // namespace tenon::assembly

@@ -1,6 +1,4 @@
-#include <cmath>
-
-#include "assembly/recursion/sweeps.hpp"
+#include "assembly/recursion/port_motion.hpp"
 #include "fem/rotation.hpp"
 
 namespace tenon::assembly {
@@ -11,43 +9,6 @@ using Eigen::VectorXd;
 using fem::shift_twist;
 
 namespace {
-
-// A node as deformation leaves it, in its body's axes about the body's reference.
-struct Node {
-  Vec3 position, slide, turn, turn_rate;  // slide = ψ η̇; turn = T θ η̇; turn_rate = Ṫ (θ η̇)
-  Mat3 rotation;
-};
-
-// Fills the shapes at the node: Pi = [ψ; T θ], 6×n.
-Node deformed_node(const HingedBody& b, int port, const double* eta, const double* eta_dot, Mat6X& Pi) {
-  const reduction::BodyPort& p = b.body->ports[static_cast<std::size_t>(port)];
-  Node node{p.position - b.body->reference, Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Mat3::Identity()};
-  const Index n = b.modes();
-  if (n == 0) return node;
-  Vec6 u = Vec6::Zero(), rate = Vec6::Zero();
-  for (Index i = 0; i < n; ++i) {
-    u += eta[i] * p.Phi.col(i);
-    rate += eta_dot[i] * p.Phi.col(i);
-  }
-  node.slide = rate.head<3>();
-  node.turn = rate.tail<3>();
-  if (b.deformation == Deformation::dropped) {
-    node.slide.setZero();  // Pi is constant, and nothing depends on η̇
-    node.turn.setZero();
-    return node;
-  }
-  const Vec3 phi = u.tail<3>(), phi_dot = rate.tail<3>();
-  node.position += u.head<3>();
-  node.rotation = fem::rotation_matrix(phi);
-  node.turn_rate = fem::rotation_tangent_rate(phi, phi_dot);
-  const Mat3 T = fem::rotation_tangent(phi);
-  for (Index i = 0; i < n; ++i) {
-    Pi.col(i).head<3>() = p.Phi.col(i).head<3>();
-    Pi.col(i).tail<3>() = T * p.Phi.col(i).tail<3>();
-  }
-  node.turn = T * phi_dot;
-  return node;
-}
 
 // Π_F^d = φ*(d, k) Π^d, k the reference seen from d
 void to_reference(const Vec3& to_node, Mat6X& Pi) {
@@ -120,7 +81,7 @@ void set_state(const Multibody& system, const VectorXd& q, const VectorXd& v, Sw
     const bool root = b.parent < 0;
 
     // node t: V_t = φ*(p, t) V_p + Π_t η̇_p and the part of its rate that velocities make
-    Node t{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Mat3::Identity()};
+    DeformedNode t;
     Vec6 V_t = Vec6::Zero(), bias = Vec6::Zero();
     RigidMotion base{Mat3::Identity(), b.inner_position};
     if (!root) {
@@ -150,7 +111,7 @@ void set_state(const Multibody& system, const VectorXd& q, const VectorXd& v, Sw
     bias.tail<3>() += w_t.cross(w_h) + inner * s.hinge.bias.tail<3>();
 
     // node d and the reference of this body
-    Node own{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Mat3::Identity()};
+    DeformedNode own;
     if (b.outer_port >= 0) {
       if (s.Pi_F.cols() > 0) {
         own = deformed_node(b, b.outer_port, eta, eta_dot, s.Pi_F);
@@ -176,6 +137,10 @@ void set_state(const Multibody& system, const VectorXd& q, const VectorXd& v, Sw
     s.a.head<3>() = s.X.R.transpose() * bias.head<3>() - s.a.tail<3>().cross(own.position) -
                     w.cross(w.cross(own.position)) - 2.0 * w.cross(own.slide);
 
+    s.alpha_bias =
+        s.X.twist(root ? Vec6(Vec6::Zero())
+                       : shift_twist(sweeps.bodies[static_cast<std::size_t>(b.parent)].alpha_bias, s.to_node)) +
+        s.a;
     s.world.R = base.R * s.X.R;
     s.world.r = base.r + base.R * (s.to_node + s.X.r);
     rigid_gyroscopic(*b.body, w, s.b);

@@ -25,6 +25,7 @@ struct BodySweep {
   HingeMotion hinge;
   Vec6 V, a;          ///< twist and a_mR, eqs (11), (25)
   Vec6 alpha;         ///< inertial rate of V
+  Vec6 alpha_bias;    ///< the same without χ̇ and gravity
   Eigen::MatrixXd M;  ///< (n+6)×(n+6) over (η, x_ref), eq (23)
   Eigen::VectorXd b;  ///< n+6, eq (37), less the loads at ports
 

@@ -1,0 +1,177 @@
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+
+#include "assembly/recursion/multibody.hpp"
+#include "fem/error.hpp"
+
+namespace tenon::assembly {
+
+namespace {
+
+// Axes whose z is the joint's axis, in the parent port's axes.
+Mat3 axis_frame(const Joint& joint) {
+  return Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), joint.axis).toRotationMatrix();
+}
+
+struct HingeFrames {
+  Mat3 parent, child;  // in the axes of the joint's two bodies
+};
+
+// Child port axes = parent port axes · Rot(axis, angle): both hinge frames coincide in the placed position.
+HingeFrames hinge_frames(const Network& network, const Joint& joint) {
+  const Mat3 Z = axis_frame(joint);
+  const Mat3 turn = Eigen::AngleAxisd(joint.angle, joint.axis).toRotationMatrix();
+  return {port_of(network, joint.parent).axes * Z, port_of(network, joint.child).axes * turn.transpose() * Z};
+}
+
+HingeKind kind_of(const Joint& joint) {
+  return joint.kind == JointKind::revolute ? HingeKind::revolute : HingeKind::weld;
+}
+
+struct Builder {
+  const Network& network;
+  Placement placement;
+  NetworkMultibody result;
+  std::vector<bool> used_joint, used_ground;
+
+  explicit Builder(const Network& net)
+      : network(net), placement(place(net)), used_joint(net.joints.size()), used_ground(net.ground.size()) {
+    result.body.assign(net.bodies.size(), -1);
+    result.hinge.assign(net.joints.size(), -1);
+    result.closure.assign(net.joints.size(), -1);
+  }
+
+  const Mat3& R(int body) const { return placement.R[static_cast<std::size_t>(body)]; }
+  Vec3 place_of(int body, const Vec3& position) const {
+    return placement.origin[static_cast<std::size_t>(body)] + R(body) * position;
+  }
+
+  HingedBody& add(int body) {
+    HingedBody b;
+    b.body = std::make_shared<const ReducedBody>(network.bodies[static_cast<std::size_t>(body)]);
+    b.name = b.body->name;
+    result.body[static_cast<std::size_t>(body)] = static_cast<int>(result.system.bodies.size());
+    return result.system.bodies.emplace_back(std::move(b));
+  }
+
+  // A piece hangs by its first grounded port, or floats by the body that placement starts from.
+  void add_root(int body, int port) {
+    HingedBody& b = add(body);
+    b.kind = port >= 0 ? HingeKind::weld : HingeKind::free;
+    b.outer_port = port;
+    b.inner_position = place_of(
+        body, port >= 0 ? network.bodies[static_cast<std::size_t>(body)].ports[static_cast<std::size_t>(port)].position
+                        : network.bodies[static_cast<std::size_t>(body)].reference);
+    b.outer_axes = R(body).transpose();
+  }
+
+  void hang(int j, int from) {
+    const Joint& joint = network.joints[static_cast<std::size_t>(j)];
+    const HingeFrames frames = hinge_frames(network, joint);
+    const bool outward = joint.parent.body == from;
+    const PortRef &inner = outward ? joint.parent : joint.child, &outer = outward ? joint.child : joint.parent;
+    HingedBody& b = add(outer.body);
+    result.hinge[static_cast<std::size_t>(j)] = result.body[static_cast<std::size_t>(outer.body)];
+    b.parent = result.body[static_cast<std::size_t>(from)];
+    b.inner_port = inner.port;
+    b.outer_port = outer.port;
+    b.kind = kind_of(joint);
+    b.reversed = !outward;
+    b.inner_axes = outward ? frames.parent : frames.child;
+    b.outer_axes = outward ? frames.child : frames.parent;
+    b.stiffness = Eigen::VectorXd::Constant(b.dofs(), joint.stiffness);
+    b.damping = Eigen::VectorXd::Constant(b.dofs(), joint.damping);
+    b.inertia = Eigen::VectorXd::Constant(b.dofs(), joint.inertia);
+  }
+
+  void close(int j) {
+    const Joint& joint = network.joints[static_cast<std::size_t>(j)];
+    if (joint.stiffness != 0.0 || joint.damping != 0.0 || joint.inertia != 0.0)
+      throw ModelError(fmt::format("joint '{}' closes a loop and carries a drive, which finite motion takes only in "
+                                   "joints of the tree",
+                                   joint.name),
+                       "List another joint of the loop after it, so that the other one closes the loop");
+    const HingeFrames frames = hinge_frames(network, joint);
+    Closure c;
+    c.name = joint.name;
+    c.inner = {result.body[static_cast<std::size_t>(joint.parent.body)], joint.parent.port};
+    c.outer = {result.body[static_cast<std::size_t>(joint.child.body)], joint.child.port};
+    c.kind = kind_of(joint);
+    c.inner_axes = frames.parent;
+    c.outer_axes = frames.child;
+    result.closure[static_cast<std::size_t>(j)] = static_cast<int>(result.system.closures.size());
+    result.system.closures.push_back(std::move(c));
+  }
+
+  void ground(const PortRef& ref) {
+    Closure c;
+    c.name = "ground of " + name(network, ref);
+    c.inner = {-1, -1};
+    c.outer = {result.body[static_cast<std::size_t>(ref.body)], ref.port};
+    c.inner_position = place_of(ref.body, port_of(network, ref).position);
+    c.outer_axes = R(ref.body).transpose();
+    result.system.closures.push_back(std::move(c));
+  }
+
+  bool reached(int body) const { return result.body[static_cast<std::size_t>(body)] >= 0; }
+
+  // Breadth first from the bodies listed from `first` on; joints between reached bodies close loops.
+  void grow(std::size_t first, std::vector<int>& order) {
+    for (std::size_t at = first; at < order.size(); ++at)
+      for (std::size_t j = 0; j < network.joints.size(); ++j) {
+        const Joint& joint = network.joints[j];
+        if (used_joint[j] || (joint.parent.body != order[at] && joint.child.body != order[at])) continue;
+        used_joint[j] = true;
+        const int other = joint.parent.body == order[at] ? joint.child.body : joint.parent.body;
+        if (reached(other)) {
+          close(static_cast<int>(j));
+        } else {
+          hang(static_cast<int>(j), order[at]);
+          order.push_back(other);
+        }
+      }
+  }
+
+  void add_lump(const LumpedMass& lump) {
+    HingedBody b;
+    b.name = lump.name;
+    b.body = std::make_shared<const ReducedBody>(reduction::rigid_body(
+        lump.name, lump.mass, Vec3::Zero(), lump.inertia, {{"centre", Vec3::Zero(), Mat3::Identity(), {}}}));
+    b.parent = result.body[static_cast<std::size_t>(lump.at.body)];
+    b.inner_port = lump.at.port;
+    b.outer_port = 0;
+    result.system.bodies.push_back(std::move(b));
+  }
+};
+
+}  // namespace
+
+NetworkMultibody make_multibody(const Network& network) {
+  Builder b(network);
+  std::vector<int> order;
+  for (std::size_t g = 0; g < network.ground.size(); ++g) {
+    const PortRef& ref = network.ground[g];
+    if (b.reached(ref.body)) {
+      b.used_ground[g] = false;
+      continue;
+    }
+    b.used_ground[g] = true;
+    b.add_root(ref.body, ref.port);
+    order.push_back(ref.body);
+    b.grow(order.size() - 1, order);
+  }
+  for (const int body : b.placement.order) {
+    if (b.reached(body)) continue;
+    b.add_root(body, -1);
+    order.push_back(body);
+    b.grow(order.size() - 1, order);
+  }
+  for (std::size_t g = 0; g < network.ground.size(); ++g)
+    if (!b.used_ground[g]) b.ground(network.ground[g]);
+  for (const LumpedMass& lump : network.masses) b.add_lump(lump);
+  index(b.result.system);
+  return std::move(b.result);
+}
+
+}  // namespace tenon::assembly
