@@ -29,4 +29,7 @@ struct GeometricStiffness {
 void geometric_stiffness(const GeometricStiffness& stiffening, const Vec3& a, const Vec3& alpha, const Vec3& omega,
                          const double* wrenches, Eigen::Ref<Eigen::MatrixXd> K_G);
 
+/// Sizes agree with the body's modes and ports, numbers are finite; throws ModelError.
+void check(const GeometricStiffness& stiffening, const ReducedBody& body);
+
 }  // namespace tenon::reduction

@@ -20,14 +20,14 @@ inline Mat3 symmetric3(const Eigen::Ref<const fem::Vec6>& a) {
 inline fem::Vec6 packed(const Mat3& A) { return {A(0, 0), A(1, 1), A(2, 2), A(0, 1), A(0, 2), A(1, 2)}; }
 
 /// What the rotary inertia of lumped nodes adds to the velocity terms of (31), (37) of the spatial-operator paper,
-///   Σ_j [ω_j × J_j ω_j + J_j (ω × θ_j η̇)], ω_j = ω + θ_j η̇, and its projections on θ_ji, summed over the nodes:
+///   Σ_j [ω_j × J_j ω_j + J_j (ω × θ_j η̇)], ω_j = ω + θ_j η̇, and its projections on θ_ji, summed over the nodes.
 struct NodeGyroscopics {
   Mat3 J = Mat3::Zero();  ///< Σ J_j [kg m²], part of the body's J0
   Eigen::Matrix3Xd C0;    ///< 3×n: Σ J_j θ_ji, part of the body's C0
-  Eigen::MatrixXd J1;     ///< 6×n: Σ θ̃_ji J_j − J_j θ̃_ji, packed; joins ∂J/∂η_i in b, not in M_m
-  Eigen::MatrixXd C1;     ///< 3n×n: rows 3i.., column k: Σ (J_j − ½ tr J_j)(θ_ji × θ_jk); joins c_ki in b_f
-  Eigen::MatrixXd T;      ///< 3n×n: rows 3i.., column k: Σ θ_ji × J_j θ_jk, for b_w
-  Eigen::MatrixXd U;      ///< n²×n: row i n + k, column l: Σ θ_ji · (θ_jk × J_j θ_jl), for b_f
+  Eigen::Matrix3Xd A;     ///< 3×3n: blocks A_i = Σ θ̃_ji J_j; A_i + A_iᵀ joins ∂J/∂η_i in b, not in M_m
+  Eigen::MatrixXd T;      ///< 3n×n: rows 3i.., column k: t_ik = Σ θ_ji × J_j θ_jk
+  Eigen::MatrixXd B;  ///< 3n×n: rows 3i.., column k: b_ik = Σ J_j (θ_ji × θ_jk); ½ (b_ik − t_ik + t_ki) joins c_ki
+  Eigen::MatrixXd U;  ///< n²×n: row i n + k, column l: Σ θ_ji · (θ_jk × J_j θ_jl)
 };
 
 /// What deformation does to a body's mass matrix (NUMERICS 4b): with s0, J0, m in `ReducedBody::D` and [Sᵀ C0ᵀ] in
@@ -42,7 +42,7 @@ struct ShapeIntegrals {
   NodeGyroscopics nodes;  ///< empty: none
 
   int n() const { return static_cast<int>(J1.cols()); }
-  bool has_nodes() const { return nodes.J1.cols() > 0; }
+  bool has_nodes() const { return nodes.A.cols() > 0; }
 };
 
 /// A node with its rigid body.
@@ -53,9 +53,10 @@ struct LumpedNode {
   Mat3 inertia = Mat3::Zero();   ///< J_j about the centre of mass [kg m²]
 };
 
-/// From lumped nodes: the sums of NUMERICS 4b, offsets carried into position and shape. Exactly (23), (28), (31), (37)
-/// of the spatial-operator paper. J_j turns with its node in b but not in M_m there, so energy is conserved only up to
-/// Σ J_j ω_j · (ω × θ_j η̇) when nodes have inertia.
+/// From lumped nodes: the sums of NUMERICS 4b. A node with an offset p is first carried to its centre of mass, where
+/// its shape is ψ − p̃ θ; from there on exactly (23), (28), (31), (37) of the spatial-operator paper. J_j turns with its
+/// node in b but not in M_m there, so d/dt ½ V_mᵀM_mV_m misses the power Σ J_j ω_j · (ω × θ_j η̇) when nodes have
+/// inertia.
 /// @param shapes  6N×n, [ψ; θ] node by node [1/√kg, 1/√kg m]
 ShapeIntegrals shape_integrals(std::span<const LumpedNode> nodes, const Eigen::Ref<const Eigen::MatrixXd>& shapes,
                                const Vec3& reference);
@@ -68,10 +69,11 @@ ShapeIntegrals shape_integrals(std::span<const LumpedNode> nodes, const Eigen::R
 ShapeIntegrals shape_integrals(const fem::Structure& structure, const Eigen::Ref<const Eigen::MatrixXd>& shapes,
                                const Vec3& reference);
 
-/// The integrals of the shapes ψ_k' = Σ_i V_ik (ψ_i − Φ_i,lin − Φ_i,ang × (x − x_Q)), the reference moved to x_Q:
-/// `rebase` for what large motion adds. All of them are second moments of mass, which m, s0, J0, S, C0, J1, J2 and C1
-/// hold, so lumped nodes lose nothing.
-/// @param Phi  6×n motion of the shapes at x_Q
+/// The integrals of the shapes ψ_k' = Σ_i V_ik (ψ_i − Φ_i,lin − Φ_i,ang × (x − x_Q)), θ_k' alike, the reference moved
+/// to x_Q: `rebase` for what large motion adds. All of them are second moments of mass, which m, s0, J0, S, C0, J1, J2,
+/// C1 and the tensors of the nodes hold, so nothing is lost when they come from lumped nodes; from a finite-element
+/// mass matrix they keep the error they had.
+/// @param body  before it is rebased, with integrals  @param Phi  6×n motion of the shapes at x_Q
 ShapeIntegrals rebased(const ReducedBody& body, const Vec3& x_Q, const Mat6X& Phi, const Eigen::MatrixXd& V);
 
 /// Sizes agree with the body's modes and numbers are finite; throws ModelError.
