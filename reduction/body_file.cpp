@@ -10,6 +10,8 @@
 
 #include "fem/error.hpp"
 #include "fem/formats/atomic_file.hpp"
+#include "reduction/geometric_stiffness.hpp"
+#include "reduction/shape_integrals.hpp"
 
 namespace tenon::reduction {
 
@@ -65,6 +67,7 @@ class Reader {
     for (std::size_t k = 0; k < node_.size(); ++k) all.emplace_back(node_[k], fmt::format("{}[{}]", path_, k), file_);
     return all;
   }
+  bool null() const { return node_.is_null(); }
   double number() const {
     if (!node_.is_number()) refuse("is not a finite number");
     return node_.get<double>();
@@ -134,6 +137,23 @@ Certificate read_certificate(const Reader& r) {
   return c;
 }
 
+Json integrals_json(const ShapeIntegrals& s) {
+  const NodeGyroscopics& g = s.nodes;
+  Json nodes = nullptr;
+  if (s.has_nodes())
+    nodes = {{"J", to_json(g.J)}, {"C0", to_json(g.C0)}, {"A", to_json(g.A)},
+             {"T", to_json(g.T)}, {"B", to_json(g.B)},   {"U", to_json(g.U)}};
+  return {{"J1", to_json(s.J1)}, {"J2", to_json(s.J2)}, {"C1", to_json(s.C1)}, {"nodes", std::move(nodes)}};
+}
+
+ShapeIntegrals read_integrals(const Reader& r, Eigen::Index n) {
+  ShapeIntegrals s{r["J1"].matrix(6, n), r["J2"].matrix(6 * n, n), r["C1"].matrix(3 * n, n), {}};
+  if (const Reader g = r["nodes"]; !g.null())
+    s.nodes = {g["J"].matrix(3, 3),     g["C0"].matrix(3, n),    g["A"].matrix(3, 3 * n),
+               g["T"].matrix(3 * n, n), g["B"].matrix(3 * n, n), g["U"].matrix(n * n, n)};
+  return s;
+}
+
 Json parse(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
   if (!in) throw InputError({.file = path.string()}, "the file cannot be opened", "Check the path and its permissions");
@@ -154,8 +174,10 @@ Json parse(const std::filesystem::path& path) {
 ReducedBody from_json(const Reader& r) {
   if (const std::string format = r["format"].text(); format != format_name)
     r["format"].refuse(fmt::format("is '{}', not '{}'", format, format_name));
-  if (const int version = r["version"].integer(); version != body_file_version)
-    r["version"].refuse(fmt::format("is {}; this program reads version {}", version, body_file_version));
+  const int version = r["version"].integer();
+  if (version < oldest_body_file_version || version > body_file_version)
+    r["version"].refuse(fmt::format("is {}; this program reads versions {} to {}", version, oldest_body_file_version,
+                                    body_file_version));
   for (const auto& [key, value] : unit_system)
     if (const std::string unit = r["units"][key].text(); unit != value)
       r["units"][key].refuse(fmt::format("is '{}', not '{}'", unit, value));
@@ -182,6 +204,13 @@ ReducedBody from_json(const Reader& r) {
   if (rows != 0 && rows != 6 * static_cast<Eigen::Index>(body.node_positions.size()))
     r["node_shapes"].refuse(fmt::format("has {} rows for {} nodes", rows, body.node_positions.size()));
   body.node_shapes = r["node_shapes"].matrix(rows, rows == 0 ? 0 : n);
+  if (version < 3) return body;
+  if (const Reader s = r["shape_integrals"]; !s.null())
+    body.shape_integrals = std::make_shared<const ShapeIntegrals>(read_integrals(s, n));
+  if (const Reader g = r["geometric_stiffness"]; !g.null()) {
+    const auto loads = GeometricStiffness::inertia_loads + 6 * static_cast<Eigen::Index>(body.ports.size());
+    body.stiffening = std::make_shared<const GeometricStiffness>(GeometricStiffness{g.matrix(n * n, loads)});
+  }
   return body;
 }
 
@@ -212,7 +241,9 @@ void write_body(const std::filesystem::path& path, const ReducedBody& body) {
                      {"D", to_json(body.D)},
                      {"ports", std::move(ports)},
                      {"node_positions", std::move(positions)},
-                     {"node_shapes", to_json(body.node_shapes)}};
+                     {"node_shapes", to_json(body.node_shapes)},
+                     {"shape_integrals", body.shape_integrals ? integrals_json(*body.shape_integrals) : Json()},
+                     {"geometric_stiffness", body.stiffening ? to_json(body.stiffening->K_G) : Json()}};
   fem::AtomicFile out(path);
   out.stream() << file << '\n';  // shortest digits that read back to the same double
   out.commit();

@@ -7,8 +7,8 @@
 
 namespace tenon::reduction {
 
-/// Version of the *.body.json format.
-inline constexpr int body_file_version = 2;
+/// Version of the *.body.json format. 3 added what large motion needs; files of version 2 are read as bodies without.
+inline constexpr int body_file_version = 3, oldest_body_file_version = 2;
 
 /// Writes a body as *.body.json: SI units (named in the file), provenance, certificate; doubles survive bit for bit.
 /// Written to a temporary file and renamed, so a half-written file never replaces a good one.

@@ -5,6 +5,7 @@
 #include "fem/error.hpp"
 #include "reduction/eq1.hpp"
 #include "reduction/reduced_body.hpp"
+#include "reduction/shape_integrals.hpp"
 
 namespace tenon::reduction {
 
@@ -51,6 +52,13 @@ ReducedBody rebase(const ReducedBody& body, int port) {
       shapes.middleRows<6>(6 * static_cast<Eigen::Index>(k)) -=
           fem::tau(body.node_positions[k] - hung.position) * Phi_Q;
     result.node_shapes = shapes * modal.V;
+  }
+  if (body.shape_integrals)
+    result.shape_integrals = std::make_shared<const ShapeIntegrals>(rebased(body, hung.position, Phi_Q, modal.V));
+  if (body.stiffening) {  // its stresses are those of the body held at the old reference
+    result.stiffening.reset();
+    result.certificate.left_out.emplace_back(
+        "geometric stiffness: computed with another parent port; compute it anew for this one");
   }
   return result;
 }

@@ -9,6 +9,7 @@
 #include "reduction/dense.hpp"
 #include "reduction/eq1.hpp"
 #include "reduction/partition.hpp"
+#include "reduction/shape_integrals.hpp"
 #include "reduction/sparse.hpp"
 #include "reduction/subspace.hpp"
 
@@ -143,6 +144,8 @@ ReducedBody reduce(const fem::Structure& structure, const std::string& parent, c
     body.node_positions = structure.nodes;
     body.node_shapes = structure.dofs.expand(TV);
   }
+  if (options.nonlinear)
+    body.shape_integrals = std::make_shared<const ShapeIntegrals>(shape_integrals(structure, TV, reference));
   Certificate& c = body.certificate;
   c.basis = contents(parts, space, basis, parent);
   c.nodes = static_cast<int>(structure.nodes.size());

@@ -27,6 +27,7 @@ struct ReduceOptions {
   bool all_modes = false;                     ///< keep every finite mode: inertia relief has nothing to add then
   double zeta = 0.0;                          ///< modal damping ratio
   bool keep_shapes = true;                    ///< node shapes for pictures
+  bool nonlinear = false;                     ///< shape integrals, for large motion
   Progress progress = {};
 };
 

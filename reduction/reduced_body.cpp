@@ -7,6 +7,8 @@
 
 #include "fem/error.hpp"
 #include "fem/mesh.hpp"
+#include "reduction/geometric_stiffness.hpp"
+#include "reduction/shape_integrals.hpp"
 
 namespace tenon::reduction {
 
@@ -101,6 +103,8 @@ void check(const ReducedBody& body) {
   if (const double least = least_scaled(residual, body.D); least < -tolerance)
     broken(body, fmt::format("its modes carry more mass than it has: D − LᵀL has the scaled eigenvalue {:.3g}", least),
            redo);
+  if (body.shape_integrals) check(*body.shape_integrals, body);
+  if (body.stiffening) check(*body.stiffening, body);
 }
 
 EffectiveMass effective_mass(const ReducedBody& body) {

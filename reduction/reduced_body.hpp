@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,9 @@ using fem::Mat3;
 using fem::Mat6;
 using fem::Mat6X;
 using fem::Vec3;
+
+struct ShapeIntegrals;      // shape_integrals.hpp
+struct GeometricStiffness;  // geometric_stiffness.hpp
 
 /// A place where the body joins others. Its motion is x = τ(position − reference) x_ref + Phi η, eq (2) of the TITOP
 /// paper.
@@ -57,6 +61,10 @@ struct ReducedBody {
   /// Shapes at the mesh nodes for pictures: node_positions N, node_shapes 6N×n; empty when not kept.
   std::vector<Vec3> node_positions;
   Eigen::MatrixXd node_shapes;
+
+  /// What large motion adds, shared by copies; null when it was not computed.
+  std::shared_ptr<const ShapeIntegrals> shape_integrals;  ///< mass that depends on η
+  std::shared_ptr<const GeometricStiffness> stiffening;   ///< stiffness that depends on loads
 
   int n() const { return static_cast<int>(omega.size()); }
 };

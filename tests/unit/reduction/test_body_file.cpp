@@ -9,6 +9,8 @@
 
 #include "fem/error.hpp"
 #include "reduction/body_file.hpp"
+#include "reduction/geometric_stiffness.hpp"
+#include "reduction/shape_integrals.hpp"
 
 using namespace tenon;
 using namespace tenon::reduction;
@@ -30,6 +32,16 @@ ReducedBody awkward() {
   body.node_shapes = Eigen::MatrixXd::Constant(6, 2, -1.7976931348623157e308);
   body.certificate = {"craig-bampton", "panel.msh", "fnv1a64:0", 5,   4,         30, 2, 2,
                       1.0 / 3.0,       1e-17,       2e-16,       0.7, {"a", "b"}};
+  ShapeIntegrals integrals{
+      Eigen::MatrixXd::Random(6, 2), Eigen::MatrixXd::Random(12, 2), Eigen::MatrixXd::Random(6, 2), {}};
+  integrals.nodes = {Mat3::Random(),
+                     Eigen::Matrix3Xd::Random(3, 2),
+                     Eigen::Matrix3Xd::Random(3, 6),
+                     Eigen::MatrixXd::Random(6, 2),
+                     Eigen::MatrixXd::Random(6, 2),
+                     Eigen::MatrixXd::Random(4, 2)};
+  body.shape_integrals = std::make_shared<const ShapeIntegrals>(std::move(integrals));
+  body.stiffening = std::make_shared<const GeometricStiffness>(GeometricStiffness{Eigen::MatrixXd::Random(4, 24)});
   return body;
 }
 
@@ -89,6 +101,18 @@ TEST_F(BodyFile, EveryBitSurvives) {
   }
   expect_same_bits(in.node_positions[0], out.node_positions[0]);
   expect_same_bits(in.node_shapes, out.node_shapes);
+  ASSERT_TRUE(in.shape_integrals && in.stiffening);
+  const ShapeIntegrals &a = *in.shape_integrals, &b = *out.shape_integrals;
+  expect_same_bits(a.J1, b.J1);
+  expect_same_bits(a.J2, b.J2);
+  expect_same_bits(a.C1, b.C1);
+  expect_same_bits(a.nodes.J, b.nodes.J);
+  expect_same_bits(a.nodes.C0, b.nodes.C0);
+  expect_same_bits(a.nodes.A, b.nodes.A);
+  expect_same_bits(a.nodes.T, b.nodes.T);
+  expect_same_bits(a.nodes.B, b.nodes.B);
+  expect_same_bits(a.nodes.U, b.nodes.U);
+  expect_same_bits(in.stiffening->K_G, out.stiffening->K_G);
   EXPECT_EQ(in.certificate.basis, out.certificate.basis);
   EXPECT_EQ(in.certificate.source_hash, out.certificate.source_hash);
   EXPECT_EQ(in.certificate.elements, out.certificate.elements);
@@ -102,7 +126,9 @@ TEST_F(BodyFile, RefusesWithASentence) {
   EXPECT_THAT(refusal(""), HasSubstr("the file is empty"));
   EXPECT_THAT(refusal("{\n\"format\": 3,\n  oops}"), HasSubstr(":3:"));
   EXPECT_THAT(refusal("[1, 2]"), HasSubstr("'format' is missing"));
-  EXPECT_THAT(refusal("/version", 99), HasSubstr("'version' is 99; this program reads version 2"));
+  EXPECT_THAT(refusal("/version", 99), HasSubstr("'version' is 99; this program reads versions 2 to 3"));
+  EXPECT_THAT(refusal("/shape_integrals/J2", {{1.0, 2.0}}), HasSubstr("'shape_integrals.J2' has 1 rows where 12 are"));
+  EXPECT_THAT(refusal("/geometric_stiffness/0", {1.0}), HasSubstr("'geometric_stiffness[0]' has 1 numbers where 24"));
   EXPECT_THAT(refusal("/format", "something"), HasSubstr("not 'tenon reduced body'"));
   EXPECT_THAT(refusal("/units/length", "mm"), HasSubstr("'units.length' is 'mm'"));
   EXPECT_THAT(refusal("/zeta", {0.1}), HasSubstr("'zeta' has 1 numbers where 2 are expected"));
@@ -113,6 +139,27 @@ TEST_F(BodyFile, RefusesWithASentence) {
   EXPECT_THAT(refusal("/omega_rad_s/0", -3.0), HasSubstr("negative"));
   EXPECT_THAT(refusal("/D/0/0", "heavy"), HasSubstr("'D[0][0]' is not a finite number"));
   EXPECT_THAT(refusal("/certificate/left_out", 1), HasSubstr("'certificate.left_out' is not a list"));
+}
+
+TEST_F(BodyFile, AFileOfVersionTwoIsABodyWithoutLargeMotion) {
+  write_body(path, awkward());
+  nlohmann::json file = nlohmann::json::parse(std::ifstream(path));
+  file["version"] = 2;
+  file.erase("shape_integrals");
+  file.erase("geometric_stiffness");
+  std::ofstream(path) << file.dump();
+  const ReducedBody body = read_body(path);
+  expect_same_bits(body.L, awkward().L);
+  EXPECT_FALSE(body.shape_integrals || body.stiffening);
+}
+
+TEST_F(BodyFile, ABodyWithoutLargeMotionReadsBackWithout) {
+  ReducedBody body = awkward();
+  body.shape_integrals.reset();
+  body.stiffening.reset();
+  write_body(path, body);
+  const ReducedBody in = read_body(path);
+  EXPECT_FALSE(in.shape_integrals || in.stiffening);
 }
 
 TEST_F(BodyFile, RefusesAMissingFileAndWritesNoBrokenOne) {

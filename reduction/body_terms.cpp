@@ -1,0 +1,95 @@
+#include "reduction/body_terms.hpp"
+
+#include <cassert>
+
+namespace tenon::reduction {
+
+namespace {
+
+using fem::Vec6;
+
+// Σ_k A(first + ., k) x_k
+template <int Rows>
+Eigen::Matrix<double, Rows, 1> rows_times(const Eigen::MatrixXd& A, Eigen::Index first, const double* x) {
+  Eigen::Matrix<double, Rows, 1> y = Eigen::Matrix<double, Rows, 1>::Zero();
+  for (Eigen::Index k = 0; k < A.cols(); ++k) y += A.block<Rows, 1>(first, k) * x[k];
+  return y;
+}
+
+// s0 of D = [m −s̃0; s̃0 J0]
+Vec3 first_moment(const Mat6& D) { return {D(5, 1), D(3, 2), D(4, 0)}; }
+
+// the part of b that the nodes' rotary inertia adds; J_j's share of J0 and C0 is in there already
+void add_nodes(const NodeGyroscopics& g, const double* eta_dot, const Vec3& w, Eigen::Ref<Eigen::VectorXd> b) {
+  const Eigen::Index n = g.C0.cols();
+  Vec3 b_w = Vec3::Zero();
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto A = g.A.middleCols<3>(3 * i);
+    const Vec3 A_w = A * w;
+    Vec3 t = Vec3::Zero(), c = Vec3::Zero();
+    double u = 0.0;
+    for (Eigen::Index k = 0; k < n; ++k) {
+      const Vec3 t_ik = g.T.block<3, 1>(3 * i, k);
+      t += eta_dot[k] * t_ik;
+      c += 0.5 * eta_dot[k] * (g.B.block<3, 1>(3 * i, k) - t_ik + g.T.block<3, 1>(3 * k, i));
+      for (Eigen::Index l = 0; l < n; ++l) u += eta_dot[k] * eta_dot[l] * g.U(i * n + k, l);
+    }
+    b_w += eta_dot[i] * (A_w + A.transpose() * w + t);  // θ_i × Jω + J(ω × θ_i) and θ_i × Jθ_k
+    b[i] += -w.dot(A_w) + 2.0 * w.dot(c) + u;
+  }
+  b.tail<3>() += b_w;
+}
+
+}  // namespace
+
+void body_terms(const ReducedBody& body, const ShapeIntegrals* integrals, Nonlinearity nonlinearity, const double* eta,
+                const double* eta_dot, const Vec3& omega, Eigen::Ref<Eigen::MatrixXd> M,
+                Eigen::Ref<Eigen::VectorXd> b) {
+  const Eigen::Index n = nonlinearity == Nonlinearity::rigid ? 0 : body.omega.size();
+  assert(M.rows() == n + 6 && M.cols() == n + 6 && b.size() == n + 6);
+  assert(n == 0 || integrals == nullptr || integrals->J1.cols() == n);
+  const Vec3& w = omega;
+  M.topLeftCorner(n, n).setIdentity();
+  M.topRightCorner(n, 6) = body.L.topRows(n);
+  M.bottomRightCorner<6, 6>() = body.D;
+
+  Vec3 s = first_moment(body.D), S_dot = Vec3::Zero(), C_dot = Vec3::Zero();  // s, S η̇, C η̇
+  Mat3 J = body.D.bottomRightCorner<3, 3>(), J_dot = Mat3::Zero();
+  if (nonlinearity == Nonlinearity::full && integrals != nullptr) {
+    Vec6 half = Vec6::Zero(), rate = Vec6::Zero();  // J − J0 and J̇
+    Vec3 S_eta = Vec3::Zero();
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const Vec6 J_i = integrals->J1.col(i) + rows_times<6>(integrals->J2, 6 * i, eta);
+      half += 0.5 * eta[i] * (integrals->J1.col(i) + J_i);
+      rate += eta_dot[i] * J_i;
+      const Vec3 S_i = body.L.row(i).head<3>();
+      const Vec3 C_i = body.L.row(i).tail<3>().transpose() + rows_times<3>(integrals->C1, 3 * i, eta);
+      S_eta += eta[i] * S_i;
+      S_dot += eta_dot[i] * S_i;
+      C_dot += eta_dot[i] * C_i;
+      M.row(i).tail<3>() = C_i;
+      b[i] = -0.5 * w.dot(symmetric3(J_i) * w) + 2.0 * w.dot(rows_times<3>(integrals->C1, 3 * i, eta_dot));
+    }
+    s += S_eta;
+    J += symmetric3(half);
+    J_dot = symmetric3(rate);
+    M.block<3, 3>(n + 3, n) += fem::skew(S_eta);
+    M.block<3, 3>(n, n + 3) -= fem::skew(S_eta);
+    M.bottomRightCorner<3, 3>() = J;
+  } else {
+    for (Eigen::Index i = 0; i < n; ++i)
+      b[i] = integrals == nullptr ? 0.0 : -0.5 * w.dot(symmetric3(integrals->J1.col(i)) * w);
+  }
+  M.bottomLeftCorner(6, n) = M.topRightCorner(n, 6).transpose();
+
+  b.segment<3>(n) = w.cross(w.cross(s)) + 2.0 * w.cross(S_dot);
+  b.tail<3>() = J_dot * w + w.cross(J * w + C_dot);
+  if (n == 0 || integrals == nullptr || !integrals->has_nodes()) return;
+  if (nonlinearity == Nonlinearity::full) {
+    add_nodes(integrals->nodes, eta_dot, w, b);
+  } else {
+    for (Eigen::Index i = 0; i < n; ++i) b[i] -= w.dot(integrals->nodes.A.middleCols<3>(3 * i) * w);
+  }
+}
+
+}  // namespace tenon::reduction
