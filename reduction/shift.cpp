@@ -128,9 +128,10 @@ double first_flexible(const fem::SparseMatrix& K, const fem::SparseMatrix& M, co
 }  // namespace
 
 ShiftedFactor choose_shift(const fem::SparseMatrix& K, const fem::SparseMatrix& M, const Eigen::MatrixXd& rigid,
-                           const std::vector<std::string>& names) {
+                           const std::vector<std::string>& names, const std::function<void(const Factor&)>& ordered) {
   fem::SparseMatrix A = shifted(K, M, 0.0);
   ShiftedFactor at{0.0, A, Factor(A)};
+  if (ordered) ordered(at.factor);
   if (rigid.cols() == 0 && at.factor.try_factorize(at.A) < 0 && free_row(K, at.factor) < 0) return at;
 
   const double ratio = least_diagonal_ratio(K, M);
