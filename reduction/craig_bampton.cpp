@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "fem/error.hpp"
+#include "reduction/count.hpp"
 #include "reduction/dense.hpp"
 #include "reduction/shift.hpp"
 #include "reduction/sparse.hpp"
@@ -50,12 +51,16 @@ Loads unit_loads(const fem::Structure& structure, const Partition& parts, int wi
   return units;
 }
 
-// K_ii of a body held at its ports must be positive definite; a singular one has a mechanism inside
-ShiftedFactor factor_interior(const fem::Structure& structure, const Partition& parts) {
+ShiftedFactor order_interior(const fem::Structure& structure, const Partition& parts) {
   fem::SparseMatrix K_ii = principal(structure.K, parts.interior);
   Factor factor(K_ii);
-  int row = factor.try_factorize(K_ii);
-  if (row < 0) row = free_row(K_ii, factor);
+  return {0.0, std::move(K_ii), std::move(factor)};
+}
+
+// K_ii of a body held at its ports must be positive definite; a singular one has a mechanism inside
+void factor_interior(const fem::Structure& structure, const Partition& parts, ShiftedFactor& ordered) {
+  int row = ordered.factor.try_factorize(ordered.A);
+  if (row < 0) row = free_row(ordered.A, ordered.factor);
   if (row >= 0) {
     const auto dof = static_cast<std::size_t>(parts.interior[static_cast<std::size_t>(row)]);
     throw ModelError(
@@ -65,7 +70,6 @@ ShiftedFactor factor_interior(const fem::Structure& structure, const Partition& 
         "that "
         "the rest is lost in its rounding");
   }
-  return {0.0, std::move(K_ii), std::move(factor)};
 }
 
 Subspace component_modes(const fem::Structure& structure, const Partition& parts, const Loads& loads,
@@ -78,7 +82,11 @@ Subspace component_modes(const fem::Structure& structure, const Partition& parts
   ResidualShapes residual{Eigen::MatrixXd(interior, 0), Eigen::MatrixXd(0, 0), {}};
   if (interior > 0) {
     const fem::SparseMatrix M_ii = principal(structure.M, parts.interior);
-    const ShiftedFactor factored = factor_interior(structure, parts);
+    ShiftedFactor factored = order_interior(structure, parts);
+    const bool modes = options.count > 0 || options.band;
+    Count count;
+    if (modes && (options.certify || options.band)) count.prepare(factored.A, M_ii, factored.factor);
+    factor_interior(structure, parts, factored);
     if (children > 0) {
       const Eigen::MatrixXd K_iC = dense_block(structure.K, parts.interior, parts.children);
       Psi = -factored.factor.solve(K_iC);     // Ψ = −K_ii⁻¹ K_iC
@@ -86,8 +94,7 @@ Subspace component_modes(const fem::Structure& structure, const Partition& parts
       K_CC = 0.5 * (K_CC + K_CC.transpose()).eval();
     }
     space.modes.shapes.resize(interior, 0);
-    if (options.count > 0 || options.band)
-      space.modes = solve_modes(factored.A, M_ii, factored, Eigen::MatrixXd(interior, 0), options);
+    if (modes) space.modes = solve_modes(factored.A, M_ii, factored, Eigen::MatrixXd(interior, 0), options, &count);
     if (loads.F.cols() > 0)
       residual = residual_shapes([&](const Eigen::MatrixXd& F) { return factored.factor.solve(F); }, M_ii, space.modes,
                                  {rows_of(loads.F, parts.interior), loads.names});

@@ -4,6 +4,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <mutex>
 #include <vector>
 
 #include "fem/error.hpp"
@@ -128,14 +129,35 @@ void triangular_solve(const Eigen::MatrixXd& L, Eigen::Ref<Eigen::MatrixXd> B, b
               blas_int(B.outerStride()));
 }
 
-ThreadLimit::ThreadLimit(int blas_threads) : levels_(omp_get_max_active_levels()), blas_(openblas_get_num_threads()) {
+namespace {
+
+// OpenBLAS has one setting for the whole process: the first limit to come changes it, the last to go restores it
+struct BlasThreads {
+  std::mutex lock;
+  int limits = 0, before = 0;
+};
+
+BlasThreads& blas_threads_of_process() {
+  static BlasThreads state;
+  return state;
+}
+
+}  // namespace
+
+ThreadLimit::ThreadLimit() : levels_(omp_get_max_active_levels()) {
   omp_set_max_active_levels(0);
-  openblas_set_num_threads(blas_threads);
+  BlasThreads& blas = blas_threads_of_process();
+  const std::lock_guard lock(blas.lock);
+  if (blas.limits++ > 0) return;
+  blas.before = openblas_get_num_threads();
+  openblas_set_num_threads(1);
 }
 
 ThreadLimit::~ThreadLimit() {
   omp_set_max_active_levels(levels_);
-  openblas_set_num_threads(blas_);
+  BlasThreads& blas = blas_threads_of_process();
+  const std::lock_guard lock(blas.lock);
+  if (--blas.limits == 0) openblas_set_num_threads(blas.before);
 }
 
 }  // namespace tenon::reduction

@@ -31,17 +31,17 @@ int cholesky_in_place(Eigen::MatrixXd& A);
 /// B ← L⁻¹ B, or L⁻ᵀ B when `transposed`.
 void triangular_solve(const Eigen::MatrixXd& L, Eigen::Ref<Eigen::MatrixXd> B, bool transposed);
 
-/// While one lives, CHOLMOD's OpenMP loops run on one thread and OpenBLAS on `blas_threads`: Debian's CHOLMOD
-/// oversubscribes otherwise (a factor of 2.6 lost). Restores both settings.
+/// While one lives, CHOLMOD's OpenMP loops of this thread and OpenBLAS of the whole process run on one thread: Debian's
+/// CHOLMOD oversubscribes otherwise (a factor of 2.6 lost). The last one to go restores the settings.
 class ThreadLimit {
  public:
-  explicit ThreadLimit(int blas_threads);
+  ThreadLimit();
   ~ThreadLimit();
   ThreadLimit(const ThreadLimit&) = delete;
   ThreadLimit& operator=(const ThreadLimit&) = delete;
 
  private:
-  int levels_, blas_;
+  int levels_;
 };
 
 }  // namespace tenon::reduction

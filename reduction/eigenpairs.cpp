@@ -89,13 +89,36 @@ std::optional<Cut> choose_cut(const RitzValues& ritz, int wanted, double s, doub
   return Cut{finite, last + 0.1 * (std::abs(last) + s), true};
 }
 
+std::optional<double> foresee_cut(const RitzValues& ritz, int wanted, double s) {
+  const Eigen::Index count = ritz.theta.size();
+  for (Eigen::Index modes = std::max(wanted, 1); modes < count; ++modes) {
+    const double above = ritz.theta[modes - 1], gap = above - ritz.theta[modes];
+    if (gap < cluster * above) continue;
+    const double floor = infinite * std::max(ritz.theta[0], 0.0);
+    for (Eigen::Index k = 0; k <= modes; ++k)
+      if (ritz.theta[k] <= floor || !(ritz.residual[k] * ritz.residual[k] < 0.1 * gap * ritz.theta[k]))
+        return std::nullopt;
+    return 1.0 / (above - std::min(0.25 * gap, near_cut * above)) - s;
+  }
+  return std::nullopt;
+}
+
+bool clear_of_modes(const RitzValues& ritz, int modes, double s, double sigma) {
+  if (modes < 1 || modes >= ritz.theta.size()) return false;
+  const double mu = 1.0 / (sigma + s), above = ritz.theta[modes - 1], below = ritz.theta[modes] + ritz.residual[modes];
+  const double clear = 0.5 * cluster * above;
+  return above - mu >= clear && mu - below >= clear;
+}
+
 LanczosResult find_pairs(const ShiftInvert& op, const ModesOptions& options, const Eigen::MatrixXd& locked, int wanted,
-                         int block, std::uint64_t seed, double s, std::optional<double> sigma) {
+                         int block, std::uint64_t seed, double s, std::optional<double> sigma,
+                         const std::function<void(const RitzValues&)>& watch) {
   const double tolerance = 0.05 * options.residual_limit;
   if (options.solver == EigenSolver::spectra) return by_spectra(op, locked, wanted, tolerance);
   std::optional<Cut> cut;
   const auto done = [&](const RitzValues& ritz) {
     cut = choose_cut(ritz, wanted, s, tolerance, sigma);
+    if (!cut && watch) watch(ritz);
     return cut.has_value();
   };
   const auto keep = [&](const RitzValues& ritz) {

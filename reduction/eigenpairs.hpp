@@ -22,8 +22,17 @@ struct Cut {
 std::optional<Cut> choose_cut(const RitzValues& ritz, int wanted, double s, double tolerance,
                               std::optional<double> sigma);
 
+/// A shift that will lie in that gap if the Ritz values of a running search, of an error near residual²/θ, are right;
+/// empty while they cannot tell. It lies in the lower quarter: the values still move down.
+std::optional<double> foresee_cut(const RitzValues& ritz, int wanted, double s);
+
+/// Does σ lie below every mode but the first `modes`, clear of its neighbours as a cut that choose_cut makes?
+bool clear_of_modes(const RitzValues& ritz, int modes, double s, double sigma);
+
 /// Eigenpairs by the solver the options name, orthogonal to `locked`; vectors of all modes below the cut and one more.
+/// `watch`, if any, sees the Ritz values of each block step.
 LanczosResult find_pairs(const ShiftInvert& op, const ModesOptions& options, const Eigen::MatrixXd& locked, int wanted,
-                         int block, std::uint64_t seed, double s, std::optional<double> sigma);
+                         int block, std::uint64_t seed, double s, std::optional<double> sigma,
+                         const std::function<void(const RitzValues&)>& watch = {});
 
 }  // namespace tenon::reduction

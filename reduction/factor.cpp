@@ -183,7 +183,7 @@ struct Factor::Implementation {
 
 Factor::Factor(const fem::SparseMatrix& A) : implementation_(std::make_unique<Implementation>()) {
   const auto start = Clock::now();
-  const ThreadLimit limit(1);
+  const ThreadLimit limit;
   Implementation& f = *implementation_;
   f.narrow = cheaper_analysis<int>(A, f.report.ordering);
   if (f.narrow->status == CHOLMOD_TOO_LARGE) {
@@ -208,7 +208,7 @@ Factor& Factor::operator=(Factor&&) noexcept = default;
 
 int Factor::try_factorize(const fem::SparseMatrix& A) {
   const auto start = Clock::now();
-  const ThreadLimit limit(1);
+  const ThreadLimit limit;
   Implementation& f = *implementation_;
   const std::int64_t minor = f.narrow ? f.narrow->factorize(A) : f.wide->factorize(A);
   if (minor >= 0) return f.permutation[static_cast<std::size_t>(minor)];

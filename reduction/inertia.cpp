@@ -34,13 +34,9 @@ Eigen::VectorXd scattered(Eigen::Index n) {
 }  // namespace
 
 struct InertiaCounter::Implementation {
-  const fem::SparseMatrix& K;
-  const fem::SparseMatrix& M;
   fem::SparseMatrix A;
   std::vector<int> rows, columns, places;
   DMUMPS_STRUC_C mumps{};
-
-  Implementation(const fem::SparseMatrix& K_, const fem::SparseMatrix& M_) : K(K_), M(M_), A(shifted(K_, M_, 0.0)) {}
 
   int& control(int k) { return mumps.icntl[k - 1]; }  // numbered as in MUMPS's manual
   int outcome(int k) const { return mumps.infog[k - 1]; }
@@ -64,8 +60,9 @@ struct InertiaCounter::Implementation {
 
 InertiaCounter::InertiaCounter(const fem::SparseMatrix& K, const fem::SparseMatrix& M,
                                const std::vector<int>& permutation)
-    : implementation_(std::make_unique<Implementation>(K, M)) {
+    : implementation_(std::make_unique<Implementation>()) {
   Implementation& c = *implementation_;
+  c.A = shifted(K, M, 0.0);
   const auto n = static_cast<int>(c.A.rows());
   for (int j = 0; j < n; ++j)
     for (fem::SparseMatrix::InnerIterator it(c.A, j); it; ++it) {
@@ -103,10 +100,11 @@ InertiaCounter::~InertiaCounter() {
   dmumps_c(&implementation_->mumps);
 }
 
-Inertia InertiaCounter::count(double sigma, bool estimate_nearest) {
+Inertia InertiaCounter::count(const fem::SparseMatrix& K, const fem::SparseMatrix& M, double sigma,
+                              bool estimate_nearest) {
   const std::lock_guard lock(mumps_lock());
   Implementation& c = *implementation_;
-  c.A = shifted(c.K, c.M, -sigma);
+  c.A = shifted(K, M, -sigma);
   c.mumps.a = c.A.valuePtr();
   c.run(2, "factorisation");
   Inertia result;
@@ -125,11 +123,11 @@ Inertia InertiaCounter::count(double sigma, bool estimate_nearest) {
                     std::sqrt(std::max(sigma, 0.0)) / (2.0 * std::numbers::pi)),
         result.backward_error, "Move the upper end of the band away from an eigenvalue");
   if (estimate_nearest) {  // inverse iteration: ‖v‖_M / ‖(K − σM)⁻¹Mv‖_M → |λ − σ| of the nearest λ, from above
-    const auto m_norm = [&c](const Eigen::VectorXd& v) {
-      return std::sqrt(std::max(0.0, v.dot(symmetric_product(c.M, v).col(0))));
+    const auto m_norm = [&M](const Eigen::VectorXd& v) {
+      return std::sqrt(std::max(0.0, v.dot(symmetric_product(M, v).col(0))));
     };
     x /= std::max(m_norm(x), 1e-300);
-    x = c.solve(symmetric_product(c.M, x));
+    x = c.solve(symmetric_product(M, x));
     result.nearest = 1.0 / std::max(m_norm(x), 1e-300);
   }
   return result;
@@ -138,7 +136,7 @@ Inertia InertiaCounter::count(double sigma, bool estimate_nearest) {
 int count_below(const fem::SparseMatrix& K, const fem::SparseMatrix& M, double sigma) {
   if (K.rows() == 0) return 0;
   InertiaCounter counter(K, M);
-  const Inertia inertia = counter.count(sigma, true);
+  const Inertia inertia = counter.count(K, M, sigma, true);
   // the pivots are those of a matrix within rounding of K − σM: their signs hold if no eigenvalue is that near
   if (inertia.null_pivots > 0 || inertia.nearest <= 1e-10 * std::abs(sigma))
     throw NumericalError(fmt::format("the shift {:.9g} rad²/s² lies on an eigenvalue: relative distance", sigma),

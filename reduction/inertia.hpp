@@ -27,8 +27,9 @@ class InertiaCounter {
   InertiaCounter(const InertiaCounter&) = delete;
   InertiaCounter& operator=(const InertiaCounter&) = delete;
 
-  /// Factors K − σM and counts. Throws NumericalError when the factorisation or its check solve fails.
-  Inertia count(double sigma, bool estimate_nearest = false);
+  /// Factors K − σM, of the pattern analysed, and counts. Throws NumericalError when the factorisation or its check
+  /// solve fails.
+  Inertia count(const fem::SparseMatrix& K, const fem::SparseMatrix& M, double sigma, bool estimate_nearest = false);
 
  private:
   struct Implementation;

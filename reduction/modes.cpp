@@ -5,15 +5,14 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <future>
 #include <limits>
 #include <numbers>
 
 #include "fem/error.hpp"
+#include "reduction/count.hpp"
 #include "reduction/dense.hpp"
 #include "reduction/dense_modes.hpp"
 #include "reduction/eigenpairs.hpp"
-#include "reduction/inertia.hpp"
 #include "reduction/shift.hpp"
 #include "reduction/sparse.hpp"
 
@@ -32,7 +31,6 @@ struct Flexible {
   Eigen::VectorXd lambda;
   Eigen::MatrixXd X;  // mass-normalised
   Cut cut;
-  int counted = -1;
 };
 
 // Everything the steps below read.
@@ -42,28 +40,14 @@ struct Problem {
   const ShiftedFactor& at;
   const Eigen::MatrixXd& rigid;
   const ModesOptions& options;
+  Count& count;
 
+  Inertia below(double sigma, bool estimate_nearest = false) const {
+    return count.below(K, M, sigma, estimate_nearest);
+  }
   void progress(double fraction, const char* step) const {
     if (options.progress) options.progress(fraction, step);
   }
-};
-
-// The count of eigenvalues below σ, analysed in the background while the modes are sought.
-class Count {
- public:
-  Count(const Problem& p, bool needed) {
-    if (needed)
-      counter_ = std::async(std::launch::async,
-                            [&p] { return std::make_unique<InertiaCounter>(p.K, p.M, p.at.factor.permutation()); });
-  }
-  Inertia below(double sigma, bool estimate_nearest = false) {
-    if (counter_.valid()) ready_ = counter_.get();
-    return ready_->count(sigma, estimate_nearest);
-  }
-
- private:
-  std::future<std::unique_ptr<InertiaCounter>> counter_;
-  std::unique_ptr<InertiaCounter> ready_;
 };
 
 [[noreturn]] void report_mismatch(int found, int counted, double sigma) {
@@ -75,10 +59,10 @@ class Count {
 }
 
 // σ of a band, moved off an eigenvalue it may lie on
-std::pair<double, int> count_of_band(Count& count, double band) {
+std::pair<double, int> count_of_band(const Problem& p, double band) {
   double sigma = band * band;
   for (int attempt = 0; attempt < 4; ++attempt, sigma *= 1.0 + 1e-7) {
-    const Inertia inertia = count.below(sigma, true);
+    const Inertia inertia = p.below(sigma, true);
     if (inertia.null_pivots == 0 && inertia.nearest > 1e-9 * sigma) return {sigma, inertia.negative};
   }
   throw NumericalError(fmt::format("the band's upper end {:.6g} Hz lies in a cluster of eigenvalues", hertz(sigma)),
@@ -93,7 +77,7 @@ Flexible solve_dense(const Problem& p, int wanted, std::optional<double> sigma, 
   ritz.theta = (pairs.lambda.array() + p.at.s).inverse();
   ritz.residual = Eigen::VectorXd::Zero(ritz.theta.size());
   ritz.exhausted = all || sigma || pairs.lambda.size() < wanted + margin;
-  if (ritz.theta.size() == 0) return {{}, Eigen::MatrixXd(p.K.rows(), 0), Cut{0, sigma.value_or(p.at.s), true}, -1};
+  if (ritz.theta.size() == 0) return {{}, Eigen::MatrixXd(p.K.rows(), 0), Cut{0, sigma.value_or(p.at.s), true}};
   // the shift of one solve spans only 1e13: give every finite mode a value above that floor
   const double floor = 2e-13 * ritz.theta[0];
   std::optional<Cut> cut;
@@ -106,7 +90,7 @@ Flexible solve_dense(const Problem& p, int wanted, std::optional<double> sigma, 
     cut = Cut{modes, sigma.value_or(1.1 * last), modes == static_cast<int>(pairs.lambda.size())};
   }
   const int kept = std::min<int>(cut->modes + 1, static_cast<int>(pairs.lambda.size()));
-  return {pairs.lambda.head(kept), pairs.shapes.leftCols(kept), *cut, -1};
+  return {pairs.lambda.head(kept), pairs.shapes.leftCols(kept), *cut};
 }
 
 // appends pairs and sorts by descending θ
@@ -123,46 +107,61 @@ void merge(LanczosResult& run, const LanczosResult& more) {
   run.vectors = vectors(Eigen::all, order);
 }
 
-Flexible solve_sparse(const Problem& p, Count& count, int wanted, std::optional<double> sigma) {
-  const double s = p.at.s;
-  const ShiftInvert op(p.at.factor, p.M);
-  Eigen::MatrixXd locked = locked_motions(p.at.factor, p.M, p.rigid);
-  const auto r = static_cast<int>(p.rigid.cols());
-  const int block = p.options.block > 0 ? p.options.block : 8;
-  const auto search = [&](int modes, int width, std::uint64_t seed, std::optional<double> up_to) {
-    LanczosResult run = find_pairs(op, p.options, locked, modes, width, seed, s, up_to);
+// The search for the pairs of a large problem. It keeps what it found, to look again beside it.
+class Search {
+ public:
+  Search(const Problem& p, int wanted, std::optional<double> sigma)
+      : p_(p), op_(p.at.factor, p.M), locked_(locked_motions(p.at.factor, p.M, p.rigid)) {
+    run_ = look(wanted, block(), 1, sigma, [&](const RitzValues& ritz) {
+      if (!p.options.certify || sigma || p.count.foreseen()) return;
+      if (const auto expected = foresee_cut(ritz, wanted, p.at.s)) p.count.foresee(p.K, p.M, *expected);
+    });
+    cut_ = choose_cut(run_.ritz, wanted, p.at.s, 0.05 * p.options.residual_limit, sigma).value();
+    const auto expected = p.count.foreseen();
+    if (expected && clear_of_modes(run_.ritz, cut_.modes, p.at.s, *expected)) cut_.sigma = *expected;
+    cut_.modes = found();
+  }
+
+  // repeated eigenvalues wider than the block, or a start that missed some: look again beside what was found
+  void complete(int modes) {
+    for (int attempt = 1; attempt < searches && modes > found(); ++attempt) {
+      Eigen::MatrixXd all(locked_.rows(), locked_.cols() + run_.vectors.cols());
+      all << locked_, run_.vectors;
+      std::swap(locked_, all);
+      const int missing = modes - found();
+      merge(run_, look(missing, block() + missing, static_cast<std::uint64_t>(attempt) + 1, cut_.sigma));
+    }
+    cut_.modes = found();
+  }
+
+  Flexible pairs() const {
+    const Eigen::Index kept = std::min<Eigen::Index>(cut_.modes + 1, run_.vectors.cols());
+    const Eigen::VectorXd theta = run_.ritz.theta.head(kept);
+    Flexible result{theta.cwiseInverse().array() - p_.at.s, op_.shapes(run_.vectors.leftCols(kept)), cut_};
+    result.X *= theta.cwiseSqrt().cwiseInverse().asDiagonal();  // xᵀMx = μ
+    return result;
+  }
+
+ private:
+  int block() const { return p_.options.block > 0 ? p_.options.block : 8; }
+  int found() const {
+    return static_cast<int>((run_.ritz.theta.head(run_.vectors.cols()).array() > 1.0 / (cut_.sigma + p_.at.s)).count());
+  }
+  LanczosResult look(int modes, int width, std::uint64_t seed, std::optional<double> up_to,
+                     const std::function<void(const RitzValues&)>& watch = {}) const {
+    LanczosResult run = find_pairs(op_, p_.options, locked_, modes, width, seed, p_.at.s, up_to, watch);
     if (!run.converged)
       throw NumericalError(fmt::format("the eigenvalue solver did not converge to {} modes; steps taken", modes),
                            run.steps, "Ask for fewer modes or a lower band");
     return run;
-  };
-  LanczosResult run = search(wanted, block, 1, sigma);
-  const auto tolerance = 0.05 * p.options.residual_limit;
-  Cut cut = choose_cut(run.ritz, wanted, s, tolerance, sigma).value();
-  const auto below = [&](const LanczosResult& pairs) {
-    return static_cast<int>((pairs.ritz.theta.head(pairs.vectors.cols()).array() > 1.0 / (cut.sigma + s)).count());
-  };
-  int counted = -1;
-  if (p.options.certify) {
-    p.progress(0.7, "counting");
-    counted = count.below(cut.sigma).negative;
-    for (int attempt = 1; attempt < searches && counted > r + below(run); ++attempt) {
-      // repeated eigenvalues wider than the block, or a start that missed some: look again beside what was found
-      Eigen::MatrixXd all(locked.rows(), locked.cols() + run.vectors.cols());
-      all << locked, run.vectors;
-      std::swap(locked, all);
-      const int missing = counted - r - below(run);
-      merge(run, search(missing, block + missing, static_cast<std::uint64_t>(attempt) + 1, cut.sigma));
-    }
-    if (counted != r + below(run)) report_mismatch(r + below(run), counted, cut.sigma);
   }
-  cut.modes = below(run);
-  const Eigen::Index kept = std::min<Eigen::Index>(cut.modes + 1, run.vectors.cols());
-  const Eigen::VectorXd theta = run.ritz.theta.head(kept);
-  Flexible result{theta.cwiseInverse().array() - s, op.shapes(run.vectors.leftCols(kept)), cut, counted};
-  result.X *= theta.cwiseSqrt().cwiseInverse().asDiagonal();  // xᵀMx = μ
-  return result;
-}
+
+  const Problem& p_;
+  ShiftInvert op_;
+  Eigen::MatrixXd locked_;
+  LanczosResult run_;
+  Cut cut_;
+};
 
 // λ far below the shift has lost digits in 1/μ − s: the Rayleigh quotient has them. Zero modes get λ = 0.
 int settle_low_modes(const Problem& p, Flexible& f) {
@@ -222,19 +221,53 @@ void require_sizes(const fem::SparseMatrix& K, const fem::SparseMatrix& M, const
                      "Pass square matrices of one size");
 }
 
+// The pairs as modes, `returned` of them with the rigid ones, orthonormality and residuals checked.
+Modes checked_modes(const Problem& p, Flexible& f, int returned) {
+  const auto r = static_cast<int>(p.rigid.cols());
+  // L⁻¹ magnifies rounding along the softest motions: take what is left of the rigid ones out, X ← (1 − RRᵀM) X
+  if (r > 0) f.X -= p.rigid * transposed_product(p.rigid, symmetric_product(p.M, f.X));
+  const int zero = settle_low_modes(p, f);
+  const auto flexible = static_cast<int>(f.lambda.size());
+  const int kept_rigid = std::min(r, returned);
+  const int kept = std::clamp(returned - r, 0, f.cut.modes);
+  Modes modes;
+  modes.lambda = Eigen::VectorXd::Zero(kept_rigid + kept);
+  modes.lambda.tail(kept) = f.lambda.head(kept);
+  modes.shapes.resize(p.K.rows(), kept_rigid + kept);
+  modes.shapes << p.rigid.leftCols(kept_rigid), f.X.leftCols(kept);
+  modes.rigid = kept_rigid + std::min(zero, kept);
+  modes.found = r + f.cut.modes;
+  modes.count_shift = f.cut.sigma;
+  modes.next_lambda = kept < flexible ? f.lambda[kept] : 0.0;
+  if (kept_rigid < r) modes.next_lambda = 0.0;
+  const Eigen::MatrixXd MX = symmetric_product(p.M, modes.shapes);
+  modes.max_residual = residual(p, modes.shapes, MX, modes.lambda);
+  if (modes.lambda.size() > 0)
+    modes.max_orthogonality =
+        (transposed_product(modes.shapes, MX) - Eigen::MatrixXd::Identity(modes.lambda.size(), modes.lambda.size()))
+            .cwiseAbs()
+            .maxCoeff();
+  if (modes.max_orthogonality > 1e-6)
+    throw NumericalError("the modes are not orthonormal with respect to the mass matrix", modes.max_orthogonality,
+                         "Raise the count so that the last mode is not cut out of a cluster");
+  fix_signs(modes.shapes);
+  return modes;
+}
+
 }  // namespace
 
 Modes solve_modes(const fem::SparseMatrix& K, const fem::SparseMatrix& M, const ShiftedFactor& factored,
-                  const Eigen::MatrixXd& rigid, const ModesOptions& options) {
-  const Problem p{K, M, factored, rigid, options};
+                  const Eigen::MatrixXd& rigid, const ModesOptions& options, Count* prepared) {
+  Count own;
+  const Problem p{K, M, factored, rigid, options, prepared != nullptr ? *prepared : own};
   const auto r = static_cast<int>(rigid.cols());
   const auto n = static_cast<int>(K.rows());
-  Count count(p, options.certify || options.band);
+  if (options.certify || options.band) p.count.prepare(K, M, factored.factor);
   std::optional<double> sigma;
   int returned = options.count;  // rigid ones included
   if (options.band) {
     p.progress(0.2, "counting the band");
-    std::tie(sigma, returned) = count_of_band(count, *options.band);
+    std::tie(sigma, returned) = count_of_band(p, *options.band);
   }
   const int wanted = std::max(returned - r, 1);
   p.progress(0.3, "eigenvalues");
@@ -243,45 +276,25 @@ Modes solve_modes(const fem::SparseMatrix& K, const fem::SparseMatrix& M, const 
     throw ModelError(fmt::format("{} modes of {} unknowns were asked for, too many for one body", wanted, n),
                      "Ask for fewer modes, give a band, or split the body");
   const std::optional<double> cut_at = wanted == returned - r ? sigma : std::nullopt;
-  Flexible f =
-      dense ? solve_dense(p, std::min(wanted, n), cut_at, 3 * wanted >= n) : solve_sparse(p, count, wanted, cut_at);
-  if (dense && options.certify && f.cut.modes > 0) {
-    f.counted = count.below(f.cut.sigma).negative;
-    if (f.counted != r + f.cut.modes) report_mismatch(r + f.cut.modes, f.counted, f.cut.sigma);
+  std::optional<Search> search;
+  if (!dense) search.emplace(p, wanted, cut_at);
+  Flexible f = dense ? solve_dense(p, std::min(wanted, n), cut_at, 3 * wanted >= n) : search->pairs();
+
+  p.progress(0.7, "checks");  // the count goes on beside them
+  Modes modes = checked_modes(p, f, returned);
+  if (options.certify && (!dense || f.cut.modes > 0)) {
+    p.progress(0.9, "counting");
+    const int counted = p.below(f.cut.sigma).negative;
+    if (!dense && counted > modes.found) {
+      search->complete(counted - r);
+      f = search->pairs();
+      modes = checked_modes(p, f, returned);
+    }
+    if (counted != modes.found) report_mismatch(modes.found, counted, f.cut.sigma);
+    modes.counted = counted;
   }
   if (sigma && r + static_cast<int>((f.lambda.array() < *sigma).count()) != returned)
     report_mismatch(r + static_cast<int>((f.lambda.array() < *sigma).count()), returned, *sigma);
-
-  // L⁻¹ magnifies rounding along the softest motions: take what is left of the rigid ones out, X ← (1 − RRᵀM) X
-  if (r > 0) f.X -= rigid * transposed_product(rigid, symmetric_product(M, f.X));
-
-  p.progress(0.9, "checks");
-  const int zero = settle_low_modes(p, f);
-  const auto flexible = static_cast<int>(f.lambda.size());
-  const int kept_rigid = std::min(r, returned);
-  const int kept = std::clamp(returned - r, 0, f.cut.modes);
-  Modes modes;
-  modes.lambda = Eigen::VectorXd::Zero(kept_rigid + kept);
-  modes.lambda.tail(kept) = f.lambda.head(kept);
-  modes.shapes.resize(n, kept_rigid + kept);
-  modes.shapes << rigid.leftCols(kept_rigid), f.X.leftCols(kept);
-  modes.rigid = kept_rigid + std::min(zero, kept);
-  modes.found = r + f.cut.modes;
-  modes.counted = f.counted;
-  modes.count_shift = f.cut.sigma;
-  modes.next_lambda = kept < flexible ? f.lambda[kept] : 0.0;
-  if (kept_rigid < r) modes.next_lambda = 0.0;
-  const Eigen::MatrixXd MX = symmetric_product(M, modes.shapes);
-  modes.max_residual = residual(p, modes.shapes, MX, modes.lambda);
-  if (modes.lambda.size() > 0)
-    modes.max_orthogonality = (transposed_product(modes.shapes, MX) -
-                               Eigen::MatrixXd::Identity(modes.lambda.size(), modes.lambda.size()))
-                                  .cwiseAbs()
-                                  .maxCoeff();
-  if (modes.max_orthogonality > 1e-6)
-    throw NumericalError("the modes are not orthonormal with respect to the mass matrix", modes.max_orthogonality,
-                         "Raise the count so that the last mode is not cut out of a cluster");
-  fix_signs(modes.shapes);
   p.progress(1.0, "modes");
   return modes;
 }
@@ -291,7 +304,11 @@ Modes solve_modes(const fem::SparseMatrix& K, const fem::SparseMatrix& M, const 
   require_sizes(K, M, rigid);
   if (options.progress) options.progress(0.0, "factorisation");
   const Eigen::MatrixXd moving = null_motions(K, M, rigid);
-  return solve_modes(K, M, choose_shift(K, M, moving, names), moving, options);
+  Count count;
+  const ShiftedFactor at = choose_shift(K, M, moving, names, [&](const Factor& ordered) {
+    if (options.certify || options.band) count.prepare(K, M, ordered);
+  });
+  return solve_modes(K, M, at, moving, options, &count);
 }
 
 }  // namespace tenon::reduction

@@ -59,10 +59,12 @@ Modes solve_modes(const fem::SparseMatrix& K, const fem::SparseMatrix& M, const 
 Modes solve_modes(const fem::Structure& structure, const ModesOptions& options = {});
 
 /// The same with K + sM already factored (reduction/shift.hpp), so that one factor serves static solves and modes.
-/// `rigid`: M-orthonormal basis of null(K), kept exactly.
+/// `rigid`: M-orthonormal basis of null(K), kept exactly. `prepared`: a count begun beside the factorisation of K, M
+/// (reduction/count.hpp), or null.
 struct ShiftedFactor;
+class Count;
 Modes solve_modes(const fem::SparseMatrix& K, const fem::SparseMatrix& M, const ShiftedFactor& factored,
-                  const Eigen::MatrixXd& rigid, const ModesOptions& options);
+                  const Eigen::MatrixXd& rigid, const ModesOptions& options, Count* prepared = nullptr);
 
 /// Number of eigenvalues of (K, M) below σ: negative pivots of an LDLᵀ with pivoting of K − σM.
 /// Throws NumericalError when σ is so near an eigenvalue that the count is not reliable.

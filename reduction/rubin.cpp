@@ -1,4 +1,5 @@
 #include "fem/error.hpp"
+#include "reduction/count.hpp"
 #include "reduction/sparse.hpp"
 #include "reduction/subspace.hpp"
 
@@ -16,14 +17,18 @@ Subspace free_modes(const fem::Structure& structure, const Partition& parts, con
   if (options.count > 0 || options.band) {
     ModesOptions wanted = options;
     wanted.count += modes.rigid;
-    modes = solve_modes(structure.K, structure.M, choose_shift(structure.K, structure.M, rigid, structure.dofs.names),
-                        rigid, wanted);
+    Count count;
+    const ShiftedFactor free =
+        choose_shift(structure.K, structure.M, rigid, structure.dofs.names,
+                     [&](const Factor& ordered) { count.prepare(structure.K, structure.M, ordered); });
+    modes = solve_modes(structure.K, structure.M, free, rigid, wanted, &count);
   }
   if (modes.rigid > rigid.cols())
     throw ModelError("the body can move without strain while its parent port is held",
                      "Look for a mechanism or a hinge inside it, or take a parent port that holds all six directions");
 
-  const ShiftedFactor clamped = factor_interior(structure, parts);
+  ShiftedFactor clamped = order_interior(structure, parts);
+  factor_interior(structure, parts, clamped);
   const auto solve = [&](const Eigen::MatrixXd& F) -> Eigen::MatrixXd {
     Eigen::MatrixXd X = Eigen::MatrixXd::Zero(F.rows(), F.cols());
     X(parts.interior, Eigen::all) = clamped.factor.solve(Eigen::MatrixXd(F(parts.interior, Eigen::all)));

@@ -56,9 +56,15 @@ Eigen::MatrixXd null_motions(const fem::SparseMatrix& K, const fem::SparseMatrix
       Eigen::HouseholderQR<Eigen::MatrixXd>(KR).matrixQR().topRows(r).triangularView<Eigen::Upper>();
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(small, Eigen::ComputeFullV);
   Eigen::MatrixXd found(n, 0);
+  const Eigen::MatrixXd X = basis * svd.matrixV();
+  const Eigen::MatrixXd forces = symmetric_product(K, X);
+  const Eigen::VectorXd row_sums = absolute_product(K, Eigen::VectorXd::Ones(n));
   for (Eigen::Index k = r - 1; k >= 0; --k) {
-    const Eigen::VectorXd x = basis * svd.matrixV().col(k);
-    const Eigen::VectorXd force = symmetric_product(K, x), scale = absolute_product(K, x);
+    const Eigen::VectorXd x = X.col(k), force = forces.col(k);
+    // |K||x| ≤ |K|1 max|x|: what fails against that fails below
+    const double most = x.lpNorm<Eigen::Infinity>(), ceiling = epsilon * row_sums.maxCoeff() * most;
+    if ((force.cwiseAbs().array() > 1.001 * (rigid_limit * most * row_sums.array() + ceiling)).any()) continue;
+    const Eigen::VectorXd scale = absolute_product(K, x);
     const double floor = epsilon * scale.maxCoeff();
     if (((force.cwiseAbs().array() > rigid_limit * scale.array() + floor)).any()) continue;
     found.conservativeResize(Eigen::NoChange, found.cols() + 1);
@@ -128,9 +134,10 @@ double first_flexible(const fem::SparseMatrix& K, const fem::SparseMatrix& M, co
 }  // namespace
 
 ShiftedFactor choose_shift(const fem::SparseMatrix& K, const fem::SparseMatrix& M, const Eigen::MatrixXd& rigid,
-                           const std::vector<std::string>& names) {
+                           const std::vector<std::string>& names, const std::function<void(const Factor&)>& ordered) {
   fem::SparseMatrix A = shifted(K, M, 0.0);
   ShiftedFactor at{0.0, A, Factor(A)};
+  if (ordered) ordered(at.factor);
   if (rigid.cols() == 0 && at.factor.try_factorize(at.A) < 0 && free_row(K, at.factor) < 0) return at;
 
   const double ratio = least_diagonal_ratio(K, M);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -25,9 +26,11 @@ struct ShiftedFactor {
 /// s = 0 where K is positive definite; else s of the size of the first flexible eigenvalue (between 1 and 30 of it),
 /// found by a few block Lanczos steps from a shift below the least K_ii/M_ii: then λ = 1/μ − s keeps its digits and no
 /// zero mode drowns the flexible ones. `rigid`: M-orthonormal basis of null(K) as far as known.
+/// `ordered` is called, if given, when the ordering is known and the numbers are not: other work may begin beside.
 /// Throws NumericalError naming the dof whose pivot fails when no shift helps.
 ShiftedFactor choose_shift(const fem::SparseMatrix& K, const fem::SparseMatrix& M, const Eigen::MatrixXd& rigid,
-                           const std::vector<std::string>& names = {});
+                           const std::vector<std::string>& names = {},
+                           const std::function<void(const Factor&)>& ordered = {});
 
 /// A factored K is singular to working precision when some x = K⁻¹v has an energy within rounding of zero. Returns −1
 /// when it is sound, else the row that moves most.

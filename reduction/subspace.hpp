@@ -41,7 +41,9 @@ Subspace free_modes(const fem::Structure& structure, const Partition& parts, con
 /// A unit load for every dof of every port but `without` (−1: of every port).
 Loads unit_loads(const fem::Structure& structure, const Partition& parts, int without = -1);
 
-/// K_ii and its factor; throws ModelError naming a dof that can move without strain while the other rows are held.
-ShiftedFactor factor_interior(const fem::Structure& structure, const Partition& parts);
+/// K_ii ordered and analysed, not yet factored.
+ShiftedFactor order_interior(const fem::Structure& structure, const Partition& parts);
+/// Factors it; throws ModelError naming a dof that can move without strain while the other rows are held.
+void factor_interior(const fem::Structure& structure, const Partition& parts, ShiftedFactor& ordered);
 
 }  // namespace tenon::reduction

@@ -12,7 +12,7 @@ namespace tenon::reduction {
 namespace {
 
 constexpr Eigen::Index worth_packing = 20000;  // rows
-constexpr double worth_a_thread = 2e6;  // entries of L below which starting a thread costs more than it saves
+constexpr double worth_a_thread = 2e6;         // entries of L below which starting a thread costs more than it saves
 
 // working rows, on the heap once a solve
 class Scratch {
@@ -163,35 +163,27 @@ void TriangularSolver::split() {
 
 void TriangularSolver::lower(const double* values, Panel& X) const {
   Scratch y(longest_);
-  if (!part_[1].empty()) {
-    Scratch own(static_cast<std::int64_t>(top_rows_.size()));
-    std::thread second([&] {
-      Scratch z(longest_);
-      lower_sweep(shape_, values, part_[1], {X.data(), own.data(), top_slot_.data()}, z);
-    });
-    lower_sweep(shape_, values, part_[0], {X.data()}, y);
-    second.join();
-    for (std::size_t k = 0; k < top_rows_.size(); ++k)
-      add8(own.data() + 8 * k, X.data() + 8 * static_cast<std::int64_t>(top_rows_[k]));
-  } else {
-    lower_sweep(shape_, values, part_[0], {X.data()}, y);
-  }
+  Scratch own(part_[1].empty() ? 0 : static_cast<std::int64_t>(top_rows_.size()));  // what the second part owes the top
+  both(
+      !part_[1].empty(), [&] { lower_sweep(shape_, values, part_[0], {X.data()}, y); },
+      [&] {
+        Scratch z(longest_);
+        lower_sweep(shape_, values, part_[1], {X.data(), own.data(), top_slot_.data()}, z);
+      });
+  for (std::size_t k = 0; k < top_rows_.size() && !part_[1].empty(); ++k)
+    add8(own.data() + 8 * k, X.data() + 8 * static_cast<std::int64_t>(top_rows_[k]));
   lower_sweep(shape_, values, top_, {X.data()}, y);
 }
 
 void TriangularSolver::upper(const double* values, Panel& X) const {
   Scratch y(longest_);
   upper_sweep(shape_, values, top_, X.data(), y);
-  if (!part_[1].empty()) {
-    std::thread second([&] {
-      Scratch z(longest_);
-      upper_sweep(shape_, values, part_[1], X.data(), z);
-    });
-    upper_sweep(shape_, values, part_[0], X.data(), y);
-    second.join();
-  } else {
-    upper_sweep(shape_, values, part_[0], X.data(), y);
-  }
+  both(
+      !part_[1].empty(), [&] { upper_sweep(shape_, values, part_[0], X.data(), y); },
+      [&] {
+        Scratch z(longest_);
+        upper_sweep(shape_, values, part_[1], X.data(), z);
+      });
 }
 
 }  // namespace tenon::reduction
