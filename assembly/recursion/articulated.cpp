@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "assembly/recursion/mode_kernels.hpp"
 #include "assembly/recursion/sweeps.hpp"
 #include "fem/error.hpp"
 
@@ -22,74 +24,42 @@ constexpr double least_pivot = 1e-13;  // of the diagonal before elimination: be
                    "Give the body (or what hangs on it) mass there, the hinge a rotor inertia, or lock it");
 }
 
-// L11 L11ᵀ = D_f in place, lower
-void factor_modes(const HingedBody& b, Eigen::MatrixXd& L) {
-  const Index n = L.rows();
-  for (Index j = 0; j < n; ++j) {
-    const double before = L(j, j);
-    double pivot = before;
-    for (Index k = 0; k < j; ++k) pivot -= L(j, k) * L(j, k);
-    if (!(pivot > least_pivot * before)) no_inertia(b, fmt::format("mode {}", j + 1));
-    const double root = std::sqrt(pivot), inverse = 1.0 / root;
-    for (Index k = 0; k < j; ++k) {
-      const double factor = L(j, k);
-      for (Index i = j + 1; i < n; ++i) L(i, j) -= factor * L(i, k);
-    }
-    L(j, j) = root;
-    for (Index i = j + 1; i < n; ++i) L(i, j) *= inverse;
-  }
-}
-
-// x ← L⁻¹ x
-void lower_solve(const Eigen::MatrixXd& L, VectorXd& x) {
-  const Index n = L.rows();
-  for (Index j = 0; j < n; ++j) {
-    x[j] /= L(j, j);
-    for (Index i = j + 1; i < n; ++i) x[i] -= L(i, j) * x[j];
-  }
-}
-
-// x ← L⁻ᵀ x
-void upper_solve(const Eigen::MatrixXd& L, VectorXd& x) {
-  for (Index j = L.rows() - 1; j >= 0; --j) {
-    for (Index i = j + 1; i < L.rows(); ++i) x[j] -= L(i, j) * x[i];
-    x[j] /= L(j, j);
-  }
-}
-
 // The modes of body k out of its articulated inertia: D_f, μ, P_R of eq (63).
-void eliminate_modes(const HingedBody& b, const ImplicitTerms& implicit, BodySweep& s) {
+void take_out_modes(const HingedBody& b, const ImplicitTerms& implicit, BodySweep& s) {
   const Index n = b.modes();
   s.P_R = s.P_rr;
   if (n == 0) return;
   if (s.Pi_F.cols() > 0) {  // H_f = [1, −Π_Fᵀ]: D_f = P_ff − P_fr Π_F − Π_Fᵀ P_rf + Π_Fᵀ P_rr Π_F, μ = P_rf − P_rr Π_F
-    s.L21.noalias() = -0.5 * s.P_rr * s.Pi_F;
-    s.L21 += s.P_rf;
-    for (Index j = 0; j < n; ++j)
-      for (Index i = j; i < n; ++i) s.L11(i, j) -= s.L21.col(i).dot(s.Pi_F.col(j)) + s.L21.col(j).dot(s.Pi_F.col(i));
-    s.L21.noalias() = s.P_rf;
-    s.L21.noalias() -= s.P_rr * s.Pi_F;
+    for (Index j = 0; j < n; ++j) {
+      const Vec6 P_Pi = s.P_rr * s.Pi_F.col(j);
+      s.L21.col(j).head<6>() = s.P_rf.col(j).head<6>() - P_Pi;
+      const Vec6 half = s.P_rf.col(j).head<6>() - 0.5 * P_Pi;
+      for (Index i = 0; i < n; ++i) {
+        const double value = half.dot(s.Pi_F.col(i));
+        s.L11(std::max(i, j), std::min(i, j)) -= i == j ? 2.0 * value : value;
+      }
+    }
   } else {
     s.L21 = s.P_rf;
   }
   if (implicit.damping != 0.0 || implicit.stiffness != 0.0) {
     const ReducedBody& body = *b.body;
-    if (body.C.size() > 0) s.L11.triangularView<Eigen::Lower>() += implicit.damping * body.C;
+    if (body.C.size() > 0) s.L11.topRows(n) += implicit.damping * body.C;
     for (Index i = 0; i < n; ++i) {
       const double w = body.omega[i];
       s.L11(i, i) += implicit.stiffness * w * w + (body.C.size() > 0 ? 0.0 : implicit.damping * 2.0 * body.zeta[i] * w);
     }
   }
-  factor_modes(b, s.L11);
-  for (Index j = 0; j < n; ++j) {  // L21 = μ L11⁻ᵀ
-    for (Index k = 0; k < j; ++k) s.L21.col(j) -= s.L11(j, k) * s.L21.col(k);
-    s.L21.col(j) /= s.L11(j, j);
-  }
-  for (Index j = 0; j < n; ++j) s.P_R -= s.L21.col(j) * s.L21.col(j).transpose();
+  Eigen::Matrix<double, 8, 6> P = Eigen::Matrix<double, 8, 6>::Zero();
+  P.topRows<6>() = s.P_rr;
+  const int failed =
+      eliminate_modes(static_cast<int>(n), least_pivot, s.L11.data(), s.inverse.data(), s.L21.data(), P.data());
+  if (failed >= 0) no_inertia(b, fmt::format("mode {}", failed + 1));
+  s.P_R = P.topRows<6>();
 }
 
 // The hinge of body k: D_R, G_R, P_R⁺ of eq (63); D_R is left as its Cholesky factor.
-void eliminate_hinge(const HingedBody& b, const ImplicitTerms& implicit, BodySweep& s) {
+void take_out_hinge(const HingedBody& b, const ImplicitTerms& implicit, BodySweep& s) {
   const Index r = b.dofs();
   s.P_plus = s.P_R;
   if (r == 0) return;
@@ -141,14 +111,17 @@ void solve_hinge(const BodySweep& s, VectorXd& nu) {
 
 // Γ of a child onto its parent: P(p) += 𝓐 Γ 𝓐*
 void add_to_parent(const BodySweep& child, BodySweep& parent) {
+  const auto n = static_cast<int>(child.Pi_t.cols());
+  if (n == 0) {
+    parent.P_rr += RigidMotion{child.X.R, child.to_node + child.X.r}.inertia(child.P_plus);
+    return;
+  }
   const Mat6 Gamma = child.X.inertia(child.P_plus);  // about node t, in the parent's axes
   parent.P_rr += shift_inertia(Gamma, child.to_node);
-  const Index n = child.Pi_t.cols();
-  for (Index j = 0; j < n; ++j) {
-    const Vec6 W = Gamma * child.Pi_t.col(j);
-    for (Index i = j; i < n; ++i) parent.L11(i, j) += child.Pi_t.col(i).dot(W);
-    parent.P_rf.col(j) += shift_wrench(W, child.to_node);
-  }
+  Eigen::Matrix<double, 8, 6> padded_Gamma = Eigen::Matrix<double, 8, 6>::Zero();
+  padded_Gamma.topRows<6>() = Gamma;
+  add_child_modes(n, padded_Gamma.data(), child.Pi_t8.data(), child.Pi_tT.data(), child.to_node.data(),
+                  parent.L11.data(), parent.P_rf.data());
 }
 
 }  // namespace
@@ -156,17 +129,17 @@ void add_to_parent(const BodySweep& child, BodySweep& parent) {
 void articulate(const Multibody& system, Sweeps& sweeps, const ImplicitTerms& implicit) {
   const auto count = static_cast<int>(system.bodies.size());
   for (BodySweep& s : sweeps.bodies) {
-    const Index n = s.L11.rows();
+    const Index n = s.L11.cols();
     s.P_rr = s.M.bottomRightCorner<6, 6>();
     if (n == 0) continue;
-    s.L11 = s.M.topLeftCorner(n, n);
-    s.P_rf = s.M.bottomLeftCorner(6, n);
+    s.L11.topRows(n) = s.M.topLeftCorner(n, n);
+    s.P_rf.topRows<6>() = s.M.bottomLeftCorner(6, n);
   }
   for (int k = count - 1; k >= 0; --k) {
     const HingedBody& b = system.bodies[static_cast<std::size_t>(k)];
     BodySweep& s = sweeps.bodies[static_cast<std::size_t>(k)];
-    eliminate_modes(b, implicit, s);
-    eliminate_hinge(b, implicit, s);
+    take_out_modes(b, implicit, s);
+    take_out_hinge(b, implicit, s);
     if (b.parent >= 0) add_to_parent(s, sweeps.bodies[static_cast<std::size_t>(b.parent)]);
   }
 }
@@ -178,9 +151,9 @@ template <bool Motion>
 void sweep(const Multibody& system, Sweeps& sweeps, const VectorXd& T, VectorXd& v_dot) {
   const auto count = static_cast<int>(system.bodies.size());
   for (BodySweep& s : sweeps.bodies) {
-    const Index n = s.z_f.size();
+    const Index n = s.L11.cols();
     if constexpr (Motion) {
-      s.z_f = s.b.head(n);
+      s.z_f.head(n) = s.b.head(n);
       s.z_r = s.b.tail<6>();
     } else {
       s.z_f.setZero();
@@ -193,23 +166,22 @@ void sweep(const Multibody& system, Sweeps& sweeps, const VectorXd& T, VectorXd&
     const Index n = b.modes(), r = b.dofs(), first = system.v_offset[static_cast<std::size_t>(k)];
     Vec6 z = s.z_r;  // z_R
     if (n > 0) {
-      s.y = T.segment(first, n) - s.z_f;  // ε_f
+      s.y.head(n) = T.segment(first, n) - s.z_f.head(n);  // ε_f
       for (Index i = 0; i < s.Pi_F.cols(); ++i) s.y[i] += s.Pi_F.col(i).dot(s.z_r);
-      lower_solve(s.L11, s.y);
-      for (Index i = 0; i < n; ++i) z += s.y[i] * s.L21.col(i);  // g ε_f
+      Eigen::Matrix<double, 8, 1> felt = Eigen::Matrix<double, 8, 1>::Zero();  // g ε_f
+      lower_sweep(static_cast<int>(n), s.L11.data(), s.inverse.data(), s.L21.data(), s.y.data(), felt.data());
+      z += felt.head<6>();
     }
     if constexpr (Motion) z.noalias() += s.P_R * s.a;
-    s.z_plus = z;
-    for (Index j = 0; j < r; ++j) {
-      s.nu_R[j] = T[first + n + j] - s.H_F.col(j).dot(z);  // ε_R
-      s.z_plus += s.nu_R[j] * s.G_R.col(j);
-    }
+    for (Index j = 0; j < r; ++j) s.nu_R[j] = T[first + n + j] - s.H_F.col(j).dot(z);  // ε_R
+    for (Index j = 0; j < r; ++j) z += s.nu_R[j] * s.G_R.col(j);                       // z_R⁺
     solve_hinge(s, s.nu_R);
     if (b.parent >= 0) {
       BodySweep& parent = sweeps.bodies[static_cast<std::size_t>(b.parent)];
-      const Vec6 at_node = s.X.wrench(s.z_plus);
+      const Vec6 at_node = s.X.wrench(z);
       parent.z_r += shift_wrench(at_node, s.to_node);
-      for (Index i = 0; i < s.Pi_t.cols(); ++i) parent.z_f[i] += s.Pi_t.col(i).dot(at_node);
+      if (s.Pi_t.cols() > 0)
+        add_mode_forces(static_cast<int>(s.Pi_t.cols()), s.Pi_tT.data(), at_node.data(), parent.z_f.data());
     }
   }
   Vec6 base = Vec6::Zero();
@@ -229,9 +201,10 @@ void sweep(const Multibody& system, Sweeps& sweeps, const VectorXd& T, VectorXd&
     for (Index j = 0; j < r; ++j) s.alpha += v_dot[first + n + j] * s.H_F.col(j);
     if constexpr (Motion) s.alpha += s.a;
     if (n > 0) {
-      for (Index i = 0; i < n; ++i) s.y[i] -= s.L21.col(i).dot(s.alpha);
-      upper_solve(s.L11, s.y);
-      v_dot.segment(first, n) = s.y;  // η̈ = ν_f − g* α_R
+      Eigen::Matrix<double, 8, 1> alpha = Eigen::Matrix<double, 8, 1>::Zero();
+      alpha.head<6>() = s.alpha;
+      upper_sweep(static_cast<int>(n), s.L11.data(), s.inverse.data(), s.L21.data(), alpha.data(), s.y.data());
+      v_dot.segment(first, n) = s.y.head(n);
       for (Index i = 0; i < s.Pi_F.cols(); ++i) s.alpha -= s.y[i] * s.Pi_F.col(i);
     }
   }

@@ -26,7 +26,7 @@ void inverse_dynamics(const Multibody& system, Sweeps& sweeps, const VectorXd& v
     s.alpha = s.X.twist(at_node) + s.a;
     for (Index j = 0; j < s.H_F.cols(); ++j) s.alpha += v_dot[first + n + j] * s.H_F.col(j);
     for (Index i = 0; i < s.Pi_F.cols(); ++i) s.alpha -= v_dot[first + i] * s.Pi_F.col(i);
-    s.z_f = s.b.head(n);
+    s.z_f.head(n) = s.b.head(n);
     s.z_r = s.b.tail<6>();
     for (Index i = 0; i < n; ++i) {
       const double rate = v_dot[first + i];
@@ -40,7 +40,7 @@ void inverse_dynamics(const Multibody& system, Sweeps& sweeps, const VectorXd& v
     const HingedBody& b = system.bodies[static_cast<std::size_t>(k)];
     const BodySweep& s = sweeps.bodies[static_cast<std::size_t>(k)];
     const Index n = b.modes(), first = system.v_offset[static_cast<std::size_t>(k)];
-    T.segment(first, n) = s.z_f;
+    T.segment(first, n) = s.z_f.head(n);
     for (Index i = 0; i < s.Pi_F.cols(); ++i) T[first + i] -= s.Pi_F.col(i).dot(s.z_r);
     for (Index j = 0; j < s.H_F.cols(); ++j)
       T[first + n + j] = s.H_F.col(j).dot(s.z_r) + b.inertia[j] * v_dot[first + n + j];

@@ -49,7 +49,8 @@ inline DenseOperators dense_operators(const Multibody& mb, const Sweeps& sweeps)
     const Index n_p = mb.bodies[p].modes();
     const Mat6 wrench = twist_matrix(s.X).transpose();
     MatrixXd A(n_p + 6, 6);  // (15)
-    A.topRows(n_p) = s.Pi_t.transpose();
+    A.topRows(n_p).setZero();
+    if (s.Pi_t.cols() > 0) A.topRows(n_p) = s.Pi_t.transpose();
     A.bottomRows<6>() = fem::tau(s.to_node).transpose();
     d.E_phi.block(d.row[p], d.row[k] + n, n_p + 6, 6) = A * wrench;  // (12)
   }

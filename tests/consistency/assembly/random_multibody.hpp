@@ -2,6 +2,7 @@
 
 #include "assembly/recursion/multibody.hpp"
 #include "tests/consistency/assembly/random_network.hpp"
+#include "tests/unit/reduction/lumped_body.hpp"
 
 /// Random trees on hinges of every kind, reproducible from a seed.
 namespace tenon::assembly::testing {
@@ -12,15 +13,43 @@ struct RandomMultibody {
 
   Eigen::VectorXd vector(Eigen::Index n, double size) { return size * random.matrix(n, 1); }
 
+  /// A body of lumped nodes with the integrals of its shapes: what full deformation needs. Hung by "root", a node of
+  /// its own or its reference.
+  ReducedBody lumped(const std::string& name) {
+    const int modes = random.integer(0, 6), nodes = random.integer(4, 6);
+    tests::LumpedBody lumped = tests::random_lumped(static_cast<unsigned>(random.integer(1, 1 << 20)), nodes, modes,
+                                                    false, random.chance(0.5));
+    lumped.body.name = name;
+    for (int j = 0; j < 3; ++j)
+      lumped.body.ports.push_back({"n" + std::to_string(j), lumped.nodes[static_cast<std::size_t>(j)].position,
+                                   random.rotation(), lumped.shapes.middleRows<6>(6 * j)});
+    return lumped.body;
+  }
+
+  /// A copy without springs, dampers and gravity that floats: every root is free.
+  static Multibody afloat(Multibody mb) {
+    mb.gravity.setZero();
+    for (HingedBody& b : mb.bodies) {
+      if (b.parent < 0) {
+        b.kind = HingeKind::free;
+        b.reversed = false;
+        b.stiffness = b.damping = b.inertia = Eigen::VectorXd::Zero(6);
+      }
+    }
+    index(mb);
+    return mb;
+  }
+
   /// 1 to `most` bodies; a chain or a tree, fixed or free base, hinges of 0 to 6 degrees of freedom on any port.
-  Multibody system(int most, Deformation deformation) {
+  Multibody system(int most, Deformation deformation, bool lumped_nodes = false) {
     Multibody mb;
     const int count = random.integer(1, most);
     const bool chain = random.chance(0.5);
     mb.gravity = random.vector(10.0);
     for (int k = 0; k < count; ++k) {
       HingedBody b;
-      const ReducedBody body = random.body("body" + std::to_string(k), random.chance(0.4));
+      const std::string name = "body" + std::to_string(k);
+      const ReducedBody body = lumped_nodes ? lumped(name) : random.body(name, random.chance(0.4));
       const auto ports = static_cast<int>(body.ports.size());
       b.name = body.name;
       b.body = std::make_shared<const ReducedBody>(body);

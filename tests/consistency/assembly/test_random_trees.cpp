@@ -3,8 +3,8 @@
 
 #include "assembly/disjoint.hpp"
 #include "assembly/port_algebra.hpp"
+#include "assembly/recursion/linearise.hpp"
 #include "assembly/second_order.hpp"
-#include "assembly/tree.hpp"
 #include "random_network.hpp"
 
 using namespace tenon::assembly;
@@ -54,6 +54,25 @@ struct Worst {
   double frequency = 0.0, response = 0.0, state_space = 0.0, mass = 0.0, stiffness = 0.0, condition = 1.0;
 };
 
+// q = J χ from the speeds of the tree to the coordinates of the second-order assembly, speed by speed
+MatrixXd kinematic_map(const NetworkMultibody& tree, const SecondOrderSystem& second) {
+  Sweeps sweeps = make_sweeps(tree.system);
+  const MotionState rest = rest_state(tree.system);
+  MatrixXd J = MatrixXd::Zero(second.G.cols(), tree.system.nv);
+  for (int j = 0; j < tree.system.nv; ++j) {
+    const VectorXd unit = VectorXd::Unit(tree.system.nv, j);
+    set_state(tree.system, rest.q, unit, sweeps);
+    for (std::size_t k = 0; k < tree.body.size(); ++k) {
+      const auto b = static_cast<std::size_t>(tree.body[k]);
+      const BodySweep& s = sweeps.bodies[b];
+      const int n = tree.system.bodies[b].modes();
+      J.col(j).segment<6>(second.offset[k]) << s.world.R * s.V.head<3>(), s.world.R * s.V.tail<3>();
+      J.col(j).segment(second.offset[k] + 6, n) = unit.segment(tree.system.v_offset[b], n);
+    }
+  }
+  return J;
+}
+
 void compare(const Network& net, Worst& worst) {
   const SecondOrderSystem second = second_order(net);
   const Network still = undamped(net);
@@ -75,13 +94,14 @@ void compare(const Network& net, Worst& worst) {
   }
   worst.condition = std::max(worst.condition, ports.worst_condition);
 
-  const Tree tree = make_tree(net);
+  const NetworkMultibody tree = make_multibody(net);
+  const LinearMotion motion = linearise(tree.system, rest_state(tree.system), VectorXd::Zero(tree.system.nv));
   const DisjointSystem parts = disjoint(net);
-  const MatrixXd J = kinematic_map(tree, net);
-  ASSERT_EQ(tree.n, rigid + flexible);
+  const MatrixXd J = kinematic_map(tree, second);
+  ASSERT_EQ(tree.system.nv, rigid + flexible);
   EXPECT_LT((second.G * J).norm(), 1e-12 * J.norm());  // the map obeys the joints
-  worst.mass = std::max(worst.mass, difference(composite_mass_matrix(tree), J.transpose() * parts.M * J));
-  worst.stiffness = std::max(worst.stiffness, difference(stiffness(tree), J.transpose() * parts.K * J));
+  worst.mass = std::max(worst.mass, difference(motion.M, J.transpose() * parts.M * J));
+  worst.stiffness = std::max(worst.stiffness, difference(motion.K, J.transpose() * parts.K * J));
 }
 
 void compare_many(bool any_port, unsigned seed) {

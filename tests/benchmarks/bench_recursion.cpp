@@ -1,0 +1,129 @@
+// Recursive dynamics of chains: time per body and per call, counted flops of the spatial-operator paper beside it, and
+// composite against articulated bodies. Run on one core; ratios are of one run.
+#include <benchmark/benchmark.h>
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+#include "assembly/recursion/sweeps.hpp"
+
+using namespace tenon;
+using assembly::Multibody;
+
+namespace {
+
+/// A link of length 1 m with modes of its own, hung by its reference, cantilever.
+std::shared_ptr<const reduction::ReducedBody> link(int modes) {
+  reduction::ReducedBody body = reduction::rigid_body(
+      "link", 2.0, fem::Vec3(0.5, 0.0, 0.0), 0.2 * fem::Mat3::Identity(),
+      {{"P", fem::Vec3::Zero(), fem::Mat3::Identity(), {}}, {"C", fem::Vec3::UnitX(), fem::Mat3::Identity(), {}}});
+  body.omega = Eigen::VectorXd::LinSpaced(modes, 10.0, 50.0);
+  body.zeta = Eigen::VectorXd::Constant(modes, 0.01);
+  body.L = Eigen::MatrixXd::NullaryExpr(modes, 6, [&](Eigen::Index i, Eigen::Index j) {
+    return 0.3 * std::cos(1.0 + 2.4 * static_cast<double>(i * 6 + j)) / std::sqrt(modes);
+  });
+  body.ports[0].Phi = fem::Mat6X::Zero(6, modes);
+  body.ports[1].Phi = fem::Mat6X::NullaryExpr(6, modes, [&](Eigen::Index i, Eigen::Index j) {
+    return 0.5 * std::sin(0.7 + 1.9 * static_cast<double>(i + 6 * j));
+  });
+  return std::make_shared<const reduction::ReducedBody>(body);
+}
+
+Multibody chain(int bodies, int modes) {
+  Multibody mb;
+  const auto body = link(modes);
+  mb.gravity = fem::Vec3(0.0, 0.0, -9.81);
+  for (int k = 0; k < bodies; ++k) {
+    assembly::HingedBody b;
+    b.name = "link";
+    b.body = body;
+    b.deformation = assembly::Deformation::dropped;
+    b.parent = k - 1;
+    b.inner_port = 1;
+    b.outer_port = 0;
+    b.kind = assembly::HingeKind::revolute;
+    if (k % 2 == 1) b.inner_axes = b.outer_axes = fem::Mat3(Eigen::AngleAxisd(1.0, fem::Vec3::UnitX()));
+    mb.bodies.push_back(b);
+  }
+  assembly::index(mb);
+  return mb;
+}
+
+assembly::MotionState bent(const Multibody& mb) {
+  assembly::MotionState s = rest_state(mb);
+  const Eigen::VectorXd delta =
+      Eigen::VectorXd::NullaryExpr(mb.nv, [](Eigen::Index i) { return 0.1 * std::sin(1.0 + static_cast<double>(i)); });
+  move(mb, delta, s.q);
+  s.v = -delta;
+  return s;
+}
+
+/// Multiplications and additions of one body by section 8.2 of the paper.
+double articulated_flops(double n) {
+  const double inertia =
+      n <= 7 ? 5.0 / 3.0 * n * n * n + 23.0 * n * n + 1312.0 / 3.0 * n + 344.0 : 25.0 * n * n + 437.0 * n + 1017.0;
+  return inertia + (2.0 * n * n + 49.0 * n + 99.0) + (37.0 * n + 94.0);
+}
+
+void articulated(benchmark::State& state) {
+  const auto bodies = static_cast<int>(state.range(0)), modes = static_cast<int>(state.range(1));
+  const Multibody mb = chain(bodies, modes);
+  const assembly::MotionState s = bent(mb);
+  assembly::Sweeps sweeps = make_sweeps(mb);
+  Eigen::VectorXd T = Eigen::VectorXd::Zero(mb.nv), v_dot(mb.nv);
+  for (auto _ : state) {
+    set_state(mb, s.q, s.v, sweeps);
+    passive_forces(mb, s.q, s.v, T);
+    articulate(mb, sweeps);
+    forward_dynamics(mb, sweeps, T, v_dot);
+    benchmark::DoNotOptimize(v_dot.data());
+  }
+  const double calls = static_cast<double>(state.iterations()) * bodies;
+  state.counters["per_body"] = benchmark::Counter(calls, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  state.counters["flops/s"] = benchmark::Counter(calls * articulated_flops(modes), benchmark::Counter::kIsRate);
+}
+
+void inverse(benchmark::State& state) {
+  const auto bodies = static_cast<int>(state.range(0)), modes = static_cast<int>(state.range(1));
+  const Multibody mb = chain(bodies, modes);
+  const assembly::MotionState s = bent(mb);
+  assembly::Sweeps sweeps = make_sweeps(mb);
+  Eigen::VectorXd T(mb.nv);
+  for (auto _ : state) {
+    set_state(mb, s.q, s.v, sweeps);
+    inverse_dynamics(mb, sweeps, s.v, T);
+    benchmark::DoNotOptimize(T.data());
+  }
+  state.counters["per_body"] = benchmark::Counter(static_cast<double>(state.iterations()) * bodies,
+                                                  benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
+void composite(benchmark::State& state) {
+  const auto bodies = static_cast<int>(state.range(0)), modes = static_cast<int>(state.range(1));
+  const Multibody mb = chain(bodies, modes);
+  const assembly::MotionState s = bent(mb);
+  assembly::Sweeps sweeps = make_sweeps(mb);
+  Eigen::VectorXd T(mb.nv), bias(mb.nv), zero = Eigen::VectorXd::Zero(mb.nv), v_dot(mb.nv);
+  Eigen::MatrixXd mass(mb.nv, mb.nv);
+  Eigen::LLT<Eigen::MatrixXd> factor(mb.nv);
+  for (auto _ : state) {
+    set_state(mb, s.q, s.v, sweeps);
+    passive_forces(mb, s.q, s.v, T);
+    inverse_dynamics(mb, sweeps, zero, bias);
+    composite_mass_matrix(mb, sweeps, mass);
+    factor.compute(mass);
+    v_dot = T - bias;
+    factor.solveInPlace(v_dot);
+    benchmark::DoNotOptimize(v_dot.data());
+  }
+  state.counters["per_body"] = benchmark::Counter(static_cast<double>(state.iterations()) * bodies,
+                                                  benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
+}  // namespace
+
+BENCHMARK(articulated)->ArgsProduct({{10, 100, 1000, 10000}, {0, 1, 5, 10}})->Unit(benchmark::kMicrosecond);
+BENCHMARK(inverse)->ArgsProduct({{10, 1000}, {0, 10}})->Unit(benchmark::kMicrosecond);
+BENCHMARK(composite)->ArgsProduct({{2, 10, 100}, {0, 1, 5, 10, 15}})->Unit(benchmark::kMicrosecond);
+BENCHMARK(articulated)->ArgsProduct({{2, 10, 100}, {15}})->Unit(benchmark::kMicrosecond);
+BENCHMARK_MAIN();
