@@ -33,14 +33,21 @@ inline Mat6 shift_inertia(const Mat6& P, const Vec3& l) {
   return Q;
 }
 
-/// R P Rᵀ, block by block.
+/// R P Rᵀ of a symmetric P, block by block.
 inline Mat6 rotate_inertia(const Mat6& P, const Mat3& R) {
+  const auto symmetric = [&](const Mat3& A) {
+    const Mat3 RA = R * A;
+    Mat3 Q;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j <= i; ++j) Q(i, j) = Q(j, i) = RA(i, 0) * R(j, 0) + RA(i, 1) * R(j, 1) + RA(i, 2) * R(j, 2);
+    return Q;
+  };
   Mat6 Q;
-  Q.topLeftCorner<3, 3>() = R * P.topLeftCorner<3, 3>() * R.transpose();
-  const Mat3 B = R * P.topRightCorner<3, 3>() * R.transpose();
+  Q.topLeftCorner<3, 3>() = symmetric(P.topLeftCorner<3, 3>());
+  const Mat3 RB = R * P.topRightCorner<3, 3>(), B = RB * R.transpose();
   Q.topRightCorner<3, 3>() = B;
   Q.bottomLeftCorner<3, 3>() = B.transpose();
-  Q.bottomRightCorner<3, 3>() = R * P.bottomRightCorner<3, 3>() * R.transpose();
+  Q.bottomRightCorner<3, 3>() = symmetric(P.bottomRightCorner<3, 3>());
   return Q;
 }
 

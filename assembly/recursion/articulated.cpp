@@ -60,9 +60,21 @@ void take_out_modes(const HingedBody& b, const ImplicitTerms& implicit, BodySwee
 
 // The hinge of body k: D_R, G_R, P_R⁺ of eq (63); D_R is left as its Cholesky factor.
 void take_out_hinge(const HingedBody& b, const ImplicitTerms& implicit, BodySweep& s) {
-  const Index r = b.dofs();
+  const Index r = s.H_F.cols();
   s.P_plus = s.P_R;
   if (r == 0) return;
+  if (r == 1) {
+    const Vec6 h = s.H_F.col(0), U = s.P_R * h;
+    const double bare = h.dot(U);
+    const double D = bare + b.inertia[0] + implicit.damping * b.damping[0] + implicit.stiffness * b.stiffness[0];
+    if (!(D > least_pivot * h.cwiseAbs2().dot(s.P_rr.diagonal().cwiseAbs())))
+      no_inertia(b, fmt::format("the degree of freedom of the {} hinge", name(b.kind)));
+    const Vec6 G = U / D;
+    s.D_R(0, 0) = std::sqrt(D);
+    s.G_R.col(0) = G;
+    for (int j = 0; j < 6; ++j) s.P_plus.col(j) -= G[j] * U;
+    return;
+  }
   HingeMap U(6, r);
   for (Index j = 0; j < r; ++j) U.col(j).noalias() = s.P_R * s.H_F.col(j);
   for (Index j = 0; j < r; ++j) {
@@ -99,6 +111,10 @@ void take_out_hinge(const HingedBody& b, const ImplicitTerms& implicit, BodySwee
 // ν ← D_R⁻¹ ν
 void solve_hinge(const BodySweep& s, VectorXd& nu) {
   const Index r = nu.size();
+  if (r == 1) {
+    nu[0] /= s.D_R(0, 0) * s.D_R(0, 0);
+    return;
+  }
   for (Index j = 0; j < r; ++j) {
     for (Index k = 0; k < j; ++k) nu[j] -= s.D_R(j, k) * nu[k];
     nu[j] /= s.D_R(j, j);
@@ -163,7 +179,7 @@ void sweep(const Multibody& system, Sweeps& sweeps, const VectorXd& T, VectorXd&
   for (int k = count - 1; k >= 0; --k) {  // tip to base
     const HingedBody& b = system.bodies[static_cast<std::size_t>(k)];
     BodySweep& s = sweeps.bodies[static_cast<std::size_t>(k)];
-    const Index n = b.modes(), r = b.dofs(), first = system.v_offset[static_cast<std::size_t>(k)];
+    const Index n = s.L11.cols(), r = s.H_F.cols(), first = system.v_offset[static_cast<std::size_t>(k)];
     Vec6 z = s.z_r;  // z_R
     if (n > 0) {
       s.y.head(n) = T.segment(first, n) - s.z_f.head(n);  // ε_f
@@ -189,7 +205,7 @@ void sweep(const Multibody& system, Sweeps& sweeps, const VectorXd& T, VectorXd&
   for (int k = 0; k < count; ++k) {  // base to tip
     const HingedBody& b = system.bodies[static_cast<std::size_t>(k)];
     BodySweep& s = sweeps.bodies[static_cast<std::size_t>(k)];
-    const Index n = b.modes(), r = b.dofs(), first = system.v_offset[static_cast<std::size_t>(k)];
+    const Index n = s.L11.cols(), r = s.H_F.cols(), first = system.v_offset[static_cast<std::size_t>(k)];
     Vec6 at_node = base;
     if (b.parent >= 0) {
       const auto p = static_cast<std::size_t>(b.parent);
