@@ -52,8 +52,8 @@ void take_out_modes(const HingedBody& b, const ImplicitTerms& implicit, BodySwee
   }
   Eigen::Matrix<double, 8, 6> P = Eigen::Matrix<double, 8, 6>::Zero();
   P.topRows<6>() = s.P_rr;
-  const int failed =
-      eliminate_modes(static_cast<int>(n), least_pivot, s.L11.data(), s.inverse.data(), s.L21.data(), P.data());
+  const int failed = mode_kernels().eliminate_modes(static_cast<int>(n), least_pivot, s.L11.data(), s.inverse.data(),
+                                                    s.L21.data(), P.data());
   if (failed >= 0) no_inertia(b, fmt::format("mode {}", failed + 1));
   s.P_R = P.topRows<6>();
 }
@@ -136,8 +136,8 @@ void add_to_parent(const BodySweep& child, BodySweep& parent) {
   parent.P_rr += shift_inertia(Gamma, child.to_node);
   Eigen::Matrix<double, 8, 6> padded_Gamma = Eigen::Matrix<double, 8, 6>::Zero();
   padded_Gamma.topRows<6>() = Gamma;
-  add_child_modes(n, padded_Gamma.data(), child.Pi_t8.data(), child.Pi_tT.data(), child.to_node.data(),
-                  parent.L11.data(), parent.P_rf.data());
+  mode_kernels().add_child_modes(n, padded_Gamma.data(), child.Pi_t8.data(), child.Pi_tT.data(), child.to_node.data(),
+                                 parent.L11.data(), parent.P_rf.data());
 }
 
 }  // namespace
@@ -185,7 +185,8 @@ void sweep(const Multibody& system, Sweeps& sweeps, const VectorXd& T, VectorXd&
       s.y.head(n) = T.segment(first, n) - s.z_f.head(n);  // ε_f
       for (Index i = 0; i < s.Pi_F.cols(); ++i) s.y[i] += s.Pi_F.col(i).dot(s.z_r);
       Eigen::Matrix<double, 8, 1> felt = Eigen::Matrix<double, 8, 1>::Zero();  // g ε_f
-      lower_sweep(static_cast<int>(n), s.L11.data(), s.inverse.data(), s.L21.data(), s.y.data(), felt.data());
+      mode_kernels().lower_sweep(static_cast<int>(n), s.L11.data(), s.inverse.data(), s.L21.data(), s.y.data(),
+                                 felt.data());
       z += felt.head<6>();
     }
     if constexpr (Motion) z.noalias() += s.P_R * s.a;
@@ -197,7 +198,8 @@ void sweep(const Multibody& system, Sweeps& sweeps, const VectorXd& T, VectorXd&
       const Vec6 at_node = s.X.wrench(z);
       parent.z_r += shift_wrench(at_node, s.to_node);
       if (s.Pi_t.cols() > 0)
-        add_mode_forces(static_cast<int>(s.Pi_t.cols()), s.Pi_tT.data(), at_node.data(), parent.z_f.data());
+        mode_kernels().add_mode_forces(static_cast<int>(s.Pi_t.cols()), s.Pi_tT.data(), at_node.data(),
+                                       parent.z_f.data());
     }
   }
   Vec6 base = Vec6::Zero();
@@ -219,7 +221,8 @@ void sweep(const Multibody& system, Sweeps& sweeps, const VectorXd& T, VectorXd&
     if (n > 0) {
       Eigen::Matrix<double, 8, 1> alpha = Eigen::Matrix<double, 8, 1>::Zero();
       alpha.head<6>() = s.alpha;
-      upper_sweep(static_cast<int>(n), s.L11.data(), s.inverse.data(), s.L21.data(), alpha.data(), s.y.data());
+      mode_kernels().upper_sweep(static_cast<int>(n), s.L11.data(), s.inverse.data(), s.L21.data(), alpha.data(),
+                                 s.y.data());
       v_dot.segment(first, n) = s.y.head(n);
       for (Index i = 0; i < s.Pi_F.cols(); ++i) s.alpha -= s.y[i] * s.Pi_F.col(i);
     }
