@@ -52,6 +52,13 @@ struct Structure {
 /// Throws ModelError for bad elements (named), dependency cycles, over-constraint.
 Structure assemble(const Model& model);
 
+/// Geometric stiffness K_σ of the stress that the displacement u causes (n×n, lower triangle, rows of K): second-order
+/// work of axial forces in beams and of membrane forces in shells. Stress in rigid links and springs is left out, and
+/// what the elements say of theirs. The tangent of a loaded structure is K + K_σ, its buckling K + λ K_σ singular.
+/// @param model  the one that `structure` was assembled from  @param u  n [m, rad]  @throws ModelError otherwise
+SparseMatrix geometric_stiffness(const Model& model, const Structure& structure,
+                                 const Eigen::Ref<const Eigen::VectorXd>& u);
+
 /// Rigid-body motions about `point` restricted to the free dofs: n×6, columns = unit twist components.
 Eigen::MatrixXd rigid_motions(const Structure& structure, const Vec3& point);
 

@@ -154,6 +154,8 @@ ShapeIntegrals read_integrals(const Reader& r, Eigen::Index n) {
   return s;
 }
 
+Json stiffening_json(const GeometricStiffness& g) { return {{"K", to_json(g.K)}, {"spin", to_json(g.spin)}}; }
+
 Json parse(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
   if (!in) throw InputError({.file = path.string()}, "the file cannot be opened", "Check the path and its permissions");
@@ -209,7 +211,8 @@ ReducedBody from_json(const Reader& r) {
     body.shape_integrals = std::make_shared<const ShapeIntegrals>(read_integrals(s, n));
   if (const Reader g = r["geometric_stiffness"]; !g.null()) {
     const auto loads = GeometricStiffness::inertia_loads + 6 * static_cast<Eigen::Index>(body.ports.size());
-    body.stiffening = std::make_shared<const GeometricStiffness>(GeometricStiffness{g.matrix(n * n, loads)});
+    body.stiffening = std::make_shared<const GeometricStiffness>(
+        GeometricStiffness{g["K"].matrix((n + 3) * (n + 3), loads), g["spin"].matrix(6, 6)});
   }
   return body;
 }
@@ -243,7 +246,7 @@ void write_body(const std::filesystem::path& path, const ReducedBody& body) {
                      {"node_positions", std::move(positions)},
                      {"node_shapes", to_json(body.node_shapes)},
                      {"shape_integrals", body.shape_integrals ? integrals_json(*body.shape_integrals) : Json()},
-                     {"geometric_stiffness", body.stiffening ? to_json(body.stiffening->K_G) : Json()}};
+                     {"geometric_stiffness", body.stiffening ? stiffening_json(*body.stiffening) : Json()}};
   fem::AtomicFile out(path);
   out.stream() << file << '\n';  // shortest digits that read back to the same double
   out.commit();

@@ -4,6 +4,7 @@
 
 #include "fem/error.hpp"
 #include "reduction/eq1.hpp"
+#include "reduction/geometric_stiffness.hpp"
 #include "reduction/reduced_body.hpp"
 #include "reduction/shape_integrals.hpp"
 
@@ -55,11 +56,8 @@ ReducedBody rebase(const ReducedBody& body, int port) {
   }
   if (body.shape_integrals)
     result.shape_integrals = std::make_shared<const ShapeIntegrals>(rebased(body, hung.position, Phi_Q, modal.V));
-  if (body.stiffening) {  // its stresses are those of the body held at the old reference
-    result.stiffening.reset();
-    result.certificate.left_out.emplace_back(
-        "geometric stiffness: computed with another parent port; compute it anew for this one");
-  }
+  if (body.stiffening)
+    result.stiffening = std::make_shared<const GeometricStiffness>(rebased_stiffness(body, port, modal.V));
   return result;
 }
 

@@ -34,7 +34,7 @@ struct NodeGyroscopics {
 /// `ReducedBody::L`, all about the body's reference and in its axes,
 ///   s(η) = s0 + S η,   J(η) = J0 + Σ η_i (J1_i + ½ J2_ik η_k),   C(η)_i = C0_i + Σ η_k c_ki,
 ///   M_m(η) = [1 Sᵀ C(η)ᵀ; S m −s̃(η); C(η) s̃(η) J(η)] over (η, x_ref), linear part first; eq (23).
-/// Shabana, Dynamics of Multibody Systems, §5.2 (inertia shape integrals); Wallrapp, Mech. Struct. Mach. 22 (1994) 327.
+/// Shabana, Dynamics of Multibody Systems, §5.2 (inertia shape integrals); Wallrapp, Mech. Struct. Mach. 22 (1994) 283.
 struct ShapeIntegrals {
   Eigen::MatrixXd J1;     ///< 6×n: ∂J/∂η_i at η = 0 [√kg m], as (xx, yy, zz, xy, xz, yz)
   Eigen::MatrixXd J2;     ///< 6n×n: rows 6i.., column k: ∂²J/∂η_i∂η_k, alike; symmetric in i, k

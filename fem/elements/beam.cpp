@@ -33,6 +33,9 @@
 // K_e R = 0, so rigid mass properties stay. The same for the axial bar, c = m h²/12EA, and for torsion, where
 // (1/6)[2 1; 1 2] becomes (1/12)[5 1; 1 5]. What (5) leaves of shear and rotary inertia coupled is O((kr)⁴(kh)²),
 // r the radius of gyration.
+//
+// Geometric stiffness. With ∫ H'L' = ∫ L'L' = G the axial force N does the second-order work of
+//   K_σ = N/h [(hh − G) ⊗ Q'Q + G ⊗ 1]                                                                             (6)
 namespace tenon::fem {
 namespace {
 
@@ -53,6 +56,8 @@ const Table LL = table(1.0 / 120, {40, 5, 20, -5, 5, 1, 5, -1, 20, 5, 40, -5, -5
 const Table hh = table(1.0 / 30, {36, 3, -36, 3, 3, 4, -3, -1, -36, -3, 36, -3, 3, -1, -3, 4});  // H' H'
 const Table hl = table(1.0 / 12, {0, -6, 0, -6, 0, 1, 0, -1, 0, 6, 0, 6, 0, -1, 0, 1});          // H' l
 const Table ll = table(1.0 / 6, {0, 0, 0, 0, 0, 2, 0, 1, 0, 0, 0, 0, 0, 1, 0, 2});               // l l
+
+const Table LsLs = table(1.0 / 12, {12, 0, -12, 0, 0, 1, 0, -1, -12, 0, 12, 0, 0, -1, 0, 1});  // G: L' L' = H' L'
 
 /// A sum of Kronecker products Σ A ⊗ X with its transpose's terms in, over (v₁, h s₁, v₂, h s₂): 2×2 blocks i ≤ j.
 class Transverse {
@@ -133,6 +138,22 @@ Mat3 beam_axes(const Beam& beam, const Vec3& end_1, const Vec3& end_2, double& h
   return R;
 }
 
+/// Bending and shear of a section over a length h, (1).
+struct ShearBlend {
+  Mat2 I, B, P, Q, PQ;  // PQ is 1 − Q, without cancellation
+};
+
+ShearBlend shear_blend(const BeamSection& section, const Material& material, double h) {
+  const double GA = material.G * section.A;
+  const Mat2 I = (Mat2() << section.Iz, section.Iyz, section.Iyz, section.Iy).finished();
+  const Eigen::Vector2d C_s(section.kappa_y > 0.0 ? 1.0 / (section.kappa_y * GA) : 0.0,
+                            section.kappa_z > 0.0 ? 1.0 / (section.kappa_z * GA) : 0.0);
+  const Mat2 B = material.E * I;
+  const Mat2 P = 12.0 / (h * h) * C_s.asDiagonal() * B;  // (1)
+  const Mat2 Q = (Mat2::Identity() + P).inverse();
+  return {I, B, P, Q, P * Q};
+}
+
 }  // namespace
 
 void beam_matrices(const Beam& beam, const BeamSection& section, const Material& material, std::span<const Vec3> nodes,
@@ -143,14 +164,8 @@ void beam_matrices(const Beam& beam, const BeamSection& section, const Material&
   double h = 0.0;
   const Mat3 R = beam_axes(beam, end_1, end_2, h);
 
-  const double E = material.E, GA = material.G * section.A, rho = material.rho;
-  const Mat2 I = (Mat2() << section.Iz, section.Iyz, section.Iyz, section.Iy).finished();
-  const Eigen::Vector2d C_s(section.kappa_y > 0.0 ? 1.0 / (section.kappa_y * GA) : 0.0,
-                            section.kappa_z > 0.0 ? 1.0 / (section.kappa_z * GA) : 0.0);
-  const Mat2 B = E * I;
-  const Mat2 P = 12.0 / (h * h) * C_s.asDiagonal() * B;  // (1)
-  const Mat2 Q = (Mat2::Identity() + P).inverse();
-  const Mat2 PQ = P * Q;  // 1 − Q, without cancellation
+  const double E = material.E, rho = material.rho;
+  const auto [I, B, P, Q, PQ] = shear_blend(section, material, h);
 
   Mat12 K = Mat12::Zero(), M = Mat12::Zero();
   const double EA_h = E * section.A / h, GJ_h = material.G * section.J / h;
@@ -190,6 +205,29 @@ void beam_matrices(const Beam& beam, const BeamSection& section, const Material&
   const std::array<Vec3, 2> arms{R.transpose() * beam.offsets[0], R.transpose() * beam.offsets[1]};
   to_basic_frame<2>(K, R, arms, out.K);
   to_basic_frame<2>(M, R, arms, out.M);
+}
+
+void beam_geometric_stiffness(const Beam& beam, const BeamSection& section, const Material& material,
+                              std::span<const Vec3> nodes, const Eigen::Ref<const Eigen::VectorXd>& u,
+                              ElementMatrices::Matrix& out) {
+  check(beam, section, material);
+  double h = 0.0;
+  const Mat3 R = beam_axes(beam, nodes[static_cast<std::size_t>(beam.nodes[0])] + beam.offsets[0],
+                           nodes[static_cast<std::size_t>(beam.nodes[1])] + beam.offsets[1], h);
+  const Vec3 end_1 = u.segment<3>(0) + Vec3(u.segment<3>(3)).cross(beam.offsets[0]);
+  const Vec3 end_2 = u.segment<3>(6) + Vec3(u.segment<3>(9)).cross(beam.offsets[1]);
+  const double N = material.E * section.A / h * R.col(0).dot(end_2 - end_1);
+
+  const Mat2 Q = shear_blend(section, material, h).Q;
+  Mat12 K = Mat12::Zero();
+  const double wagner = N / h * (section.Iy + section.Iz) / section.A;
+  add_bar(K, 3, wagner, -wagner);
+  Transverse k;
+  k.add(hh - LsLs, N / h * Q.transpose() * Q);  // (6)
+  k.add(LsLs, N / h * Mat2::Identity());
+  k.place(K, h);
+  const std::array<Vec3, 2> arms{R.transpose() * beam.offsets[0], R.transpose() * beam.offsets[1]};
+  to_basic_frame<2>(K, R, arms, out);
 }
 
 }  // namespace tenon::fem

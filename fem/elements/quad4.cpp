@@ -212,6 +212,18 @@ void add_hourglass(const ShellTheory& theory, const Points& points, const Vec4& 
     }
 }
 
+/// The linked deflection's edge bubbles 4ξ(1−ξ) across the element and their derivatives; edges 1-2, 2-3, 3-4, 4-1.
+struct Bubbles {
+  std::array<double, 4> P, P_r, P_s;
+};
+
+Bubbles bubbles(double r, double s) {
+  const double br = 1.0 - r * r, bs = 1.0 - s * s;
+  return {{0.5 * br * (1.0 - s), 0.5 * bs * (1.0 + r), 0.5 * br * (1.0 + s), 0.5 * bs * (1.0 - r)},
+          {-r * (1.0 - s), 0.5 * bs, -r * (1.0 + s), -0.5 * bs},
+          {-0.5 * br, -s * (1.0 + r), 0.5 * br, -s * (1.0 - r)}};
+}
+
 /// Stiffness and mass over (w θx θy); `NN` is ∫ N_i N_j dA.
 void plate(const ShellTheory& theory, const FlatQuad& flat, const Points& points, const Vec4& gamma, const Mat4& NN,
            Mat12& K, Mat12& M) {
@@ -235,12 +247,8 @@ void plate(const ShellTheory& theory, const FlatQuad& flat, const Points& points
       B(3 * i + 2, 2) = p.N_y[i];
       w[3 * i] = p.N[i];
     }
-    // edge bubbles P = 4ξ(1−ξ) across the element, and the MITC4 weights of the edges' shears, ½(1 ± s)/2
-    const double br = 1.0 - r * r, bs = 1.0 - s * s;
-    const std::array<double, 4> P{0.5 * br * (1.0 - s), 0.5 * bs * (1.0 + r), 0.5 * br * (1.0 + s),
-                                  0.5 * bs * (1.0 - r)};
-    const std::array<double, 4> P_r{-r * (1.0 - s), 0.5 * bs, -r * (1.0 + s), -0.5 * bs};
-    const std::array<double, 4> P_s{-0.5 * br, -s * (1.0 + r), 0.5 * br, -s * (1.0 - r)};
+    // the edges' bubbles and the MITC4 weights of their shears, ½(1 ± s)/2
+    const auto [P, P_r, P_s] = bubbles(r, s);
     const std::array<double, 4> tie{0.25 * (1.0 - s), 0.25 * (1.0 + r), -0.25 * (1.0 + s), -0.25 * (1.0 - r)};
     for (std::size_t k = 0; k < 4; ++k) {
       const PlateEdge& e = edge[k];
@@ -286,6 +294,45 @@ void quad4_matrices(const Quad4& quad, const ShellSection& section, const Materi
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 4; ++j) M_membrane(3 * i, 3 * j) = M_membrane(3 * i + 1, 3 * j + 1) = theory.mass * NN(i, j);
   shell_to_basic_frame<4>(M_membrane, M_plate, flat.R, flat.arms, out.M);
+}
+
+void quad4_geometric_stiffness(const Quad4& quad, const ShellSection& section, const Material& material,
+                               std::span<const Vec3> nodes, const Eigen::Ref<const Eigen::VectorXd>& u,
+                               ElementMatrices::Matrix& out) {
+  const ShellTheory theory = shell_theory(section, material, "quad", quad.id);
+  const FlatQuad flat = flatten(quad, nodes);
+  const Points gauss = points(flat);
+
+  Vec3 strain = Vec3::Zero();  // B₀ u, the element's mean
+  std::array<PlateEdge, 4> edge;
+  for (int i = 0; i < 4; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const Vec3 corner = flat.R.transpose() * u.segment<3>(6 * i) +
+                        Vec3(flat.R.transpose() * u.segment<3>(6 * i + 3)).cross(flat.arms[k]);
+    const double b = gauss.centre.N_x[i], c = gauss.centre.N_y[i];
+    strain += Vec3(b * corner.x(), c * corner.y(), c * corner.x() + b * corner.y());
+    const int j = (i + 1) % 4;
+    edge[k] = plate_edge(theory, flat.x[j] - flat.x[i], flat.y[j] - flat.y[i]);
+  }
+  const Mat2 N = stress_resultants(theory, strain);
+  Mat12 K_membrane = Mat12::Zero(), K_plate = Mat12::Zero();
+  for (std::size_t g = 0; g < 4; ++g) {
+    const Point& p = gauss.gauss[g];
+    const Bubbles bubble = bubbles(gauss.r[g], gauss.s[g]);
+    Eigen::Matrix<double, 12, 2> w = Eigen::Matrix<double, 12, 2>::Zero();  // columns: w,x w,y
+    for (int i = 0; i < 4; ++i) {
+      w(3 * i, 0) = p.N_x[i];
+      w(3 * i, 1) = p.N_y[i];
+    }
+    add_in_plane(K_membrane, w, p.dA * N);
+    for (int i = 0; i < 4; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      const Eigen::Vector2d gradient = p.J_inv * Eigen::Vector2d(bubble.P_r[k], bubble.P_s[k]);
+      for (int a = 0; a < 2; ++a) add_link(w.col(a), gradient[a], edge[k], i, (i + 1) % 4);
+    }
+    K_plate.noalias() += Eigen::Matrix<double, 12, 2>(w.lazyProduct(p.dA * N)).lazyProduct(w.transpose());
+  }
+  shell_to_basic_frame<4>(K_membrane, K_plate, flat.R, flat.arms, out);
 }
 
 }  // namespace tenon::fem

@@ -66,12 +66,29 @@ void add_g(Columns&& columns, const Factors& factors, const PlateEdge& e, int i,
 
 /// w += P (l/8)(β_tj − β_ti), the linked deflection of the edge from i to j.
 template <typename Column>
-void add_link(Column& w, double P, const PlateEdge& e, int i, int j) {
+void add_link(Column&& w, double P, const PlateEdge& e, int i, int j) {
   const double f_x = 0.125 * P * e.dx, f_y = 0.125 * P * e.dy;
   w[3 * i + 1] += f_y;
   w[3 * i + 2] -= f_x;
   w[3 * j + 1] -= f_y;
   w[3 * j + 2] += f_x;
+}
+
+/// [N_x N_xy; N_xy N_y] of a membrane strain [N/m].
+inline Eigen::Matrix2d stress_resultants(const ShellTheory& theory, const Vec3& strain) {
+  const Vec3 N = theory.membrane * strain;
+  return (Eigen::Matrix2d() << N[0], N[2], N[2], N[1]).finished();
+}
+
+/// K += ∇u N ∇uᵀ + ∇v N ∇vᵀ over (u v θz), the gradients of both being those of w over (w θx θy): rows 3i.
+template <typename Square, typename Gradients>
+void add_in_plane(Square& K, const Gradients& gradients, const Eigen::Matrix2d& N) {
+  for (int j = 0; j < gradients.rows(); j += 3)
+    for (int i = 0; i < gradients.rows(); i += 3) {
+      const double k = gradients.row(i).dot(N * gradients.row(j).transpose());
+      K(i, j) += k;
+      K(i + 1, j + 1) += k;
+    }
 }
 
 /// Joins a membrane matrix over (u v θz) and a plate matrix over (w θx θy) and carries them to the basic frame.

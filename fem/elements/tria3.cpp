@@ -45,16 +45,13 @@ FlatTria flatten(const Tria3& tria, std::span<const Vec3> nodes) {
   return f;
 }
 
-/// Stiffness over (u v θz), (1). Indices i, j, k are cyclic; edges 1-2, 2-3, 3-1.
-Mat9 membrane_stiffness(const ShellTheory& theory, const FlatTria& f) {
-  const double alpha_b = 1.5, beta_0 = std::max(0.5 * (1.0 - 4.0 * theory.nu * theory.nu), 0.01);
+/// Node forces and moments of unit membrane stress over unit thickness, over (u v θz): α_b = 3/2. Lᵀu/A is the mean
+/// strain.
+Eigen::Matrix<double, 9, 3> lumping(const FlatTria& f) {
   const auto x = [&f](int i, int j) { return f.x[i] - f.x[j]; };
   const auto y = [&f](int i, int j) { return f.y[i] - f.y[j]; };
-
-  Eigen::Matrix<double, 9, 3> L;  // per unit thickness
-  Eigen::Matrix<double, 3, 9> T;  // hierarchical rotations
-  Mat3 natural;                   // rows: edge strain = (c², s², cs) · ε
-  Vec3 l2;
+  constexpr double alpha_b = 1.5;
+  Eigen::Matrix<double, 9, 3> L;
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3, k = (i + 2) % 3;
     L.row(3 * i) << y(j, k), 0.0, x(k, j);
@@ -62,6 +59,21 @@ Mat9 membrane_stiffness(const ShellTheory& theory, const FlatTria& f) {
     L.row(3 * i + 2) << y(j, k) * (y(i, k) - y(j, i)), x(k, j) * (x(k, i) - x(i, j)),
         2.0 * (x(k, i) * y(i, k) - x(i, j) * y(j, i));
     L.row(3 * i + 2) *= alpha_b / 6.0;
+  }
+  return 0.5 * L;
+}
+
+/// Stiffness over (u v θz), (1). Indices i, j, k are cyclic; edges 1-2, 2-3, 3-1.
+Mat9 membrane_stiffness(const ShellTheory& theory, const FlatTria& f) {
+  const double beta_0 = std::max(0.5 * (1.0 - 4.0 * theory.nu * theory.nu), 0.01);
+  const auto x = [&f](int i, int j) { return f.x[i] - f.x[j]; };
+  const auto y = [&f](int i, int j) { return f.y[i] - f.y[j]; };
+
+  Eigen::Matrix<double, 3, 9> T;  // hierarchical rotations
+  Mat3 natural;                   // rows: edge strain = (c², s², cs) · ε
+  Vec3 l2;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
     for (int row = 0; row < 3; ++row) {
       T(row, 3 * i) = x(k, j) / (4.0 * f.A);
       T(row, 3 * i + 1) = y(k, j) / (4.0 * f.A);
@@ -71,7 +83,7 @@ Mat9 membrane_stiffness(const ShellTheory& theory, const FlatTria& f) {
     natural.row(i) << x(j, i) * x(j, i), y(j, i) * y(j, i), x(j, i) * y(j, i);
     natural.row(i) /= l2[i];
   }
-  L *= 0.5;
+  const Eigen::Matrix<double, 9, 3> L = lumping(f);
   const Eigen::Matrix<double, 9, 3> LC = L.lazyProduct(theory.membrane / f.A);
   Mat9 K = LC.lazyProduct(L.transpose());
 
@@ -155,6 +167,42 @@ void tria3_matrices(const Tria3& tria, const ShellSection& section, const Materi
       M_membrane(3 * i, 3 * j) = M_membrane(3 * i + 1, 3 * j + 1) = theory.mass * flat.A * (i == j ? 2.0 : 1.0) / 12.0;
   shell_to_basic_frame<3>(K_membrane, K_plate, flat.R, no_arms, out.K);
   shell_to_basic_frame<3>(M_membrane, M_plate, flat.R, no_arms, out.M);
+}
+
+void tria3_geometric_stiffness(const Tria3& tria, const ShellSection& section, const Material& material,
+                               std::span<const Vec3> nodes, const Eigen::Ref<const Eigen::VectorXd>& u,
+                               ElementMatrices::Matrix& out) {
+  const ShellTheory theory = shell_theory(section, material, "triangle", tria.id);
+  const FlatTria flat = flatten(tria, nodes);
+  Column9 in_plane;
+  Vec3 N_x, N_y;
+  std::array<PlateEdge, 3> edge;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    const Vec3 local = flat.R.transpose() * u.segment<3>(6 * i), turn = flat.R.transpose() * u.segment<3>(6 * i + 3);
+    in_plane.segment<3>(3 * i) << local.x(), local.y(), turn.z();
+    N_x[i] = (flat.y[j] - flat.y[k]) / (2.0 * flat.A);
+    N_y[i] = (flat.x[k] - flat.x[j]) / (2.0 * flat.A);
+    edge[static_cast<std::size_t>(i)] = plate_edge(theory, flat.x[j] - flat.x[i], flat.y[j] - flat.y[i]);
+  }
+  const Eigen::Matrix2d N = flat.A / 3.0 * stress_resultants(theory, lumping(flat).transpose() * in_plane / flat.A);
+  Mat9 K_membrane = Mat9::Zero(), K_plate = Mat9::Zero();
+  for (int g = 0; g < 3; ++g) {
+    Vec3 area = Vec3::Constant(1.0 / 6.0);
+    area[g] = 2.0 / 3.0;
+    Eigen::Matrix<double, 9, 2> w = Eigen::Matrix<double, 9, 2>::Zero();  // columns: w,x w,y
+    for (int i = 0; i < 3; ++i) w.row(3 * i) << N_x[i], N_y[i];
+    add_in_plane(K_membrane, w, N);
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3;
+      const PlateEdge& e = edge[static_cast<std::size_t>(i)];
+      add_link(w.col(0), 4.0 * (N_x[i] * area[j] + area[i] * N_x[j]), e, i, j);
+      add_link(w.col(1), 4.0 * (N_y[i] * area[j] + area[i] * N_y[j]), e, i, j);
+    }
+    K_plate.noalias() += Eigen::Matrix<double, 9, 2>(w.lazyProduct(N)).lazyProduct(w.transpose());
+  }
+  const std::array<Vec3, 3> no_arms{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+  shell_to_basic_frame<3>(K_membrane, K_plate, flat.R, no_arms, out);
 }
 
 }  // namespace tenon::fem

@@ -41,7 +41,8 @@ ReducedBody awkward() {
                      Eigen::MatrixXd::Random(6, 2),
                      Eigen::MatrixXd::Random(4, 2)};
   body.shape_integrals = std::make_shared<const ShapeIntegrals>(std::move(integrals));
-  body.stiffening = std::make_shared<const GeometricStiffness>(GeometricStiffness{Eigen::MatrixXd::Random(4, 24)});
+  body.stiffening =
+      std::make_shared<const GeometricStiffness>(GeometricStiffness{Eigen::MatrixXd::Random(25, 24), Mat6::Random()});
   return body;
 }
 
@@ -112,7 +113,8 @@ TEST_F(BodyFile, EveryBitSurvives) {
   expect_same_bits(a.nodes.T, b.nodes.T);
   expect_same_bits(a.nodes.B, b.nodes.B);
   expect_same_bits(a.nodes.U, b.nodes.U);
-  expect_same_bits(in.stiffening->K_G, out.stiffening->K_G);
+  expect_same_bits(in.stiffening->K, out.stiffening->K);
+  expect_same_bits(in.stiffening->spin, out.stiffening->spin);
   EXPECT_EQ(in.certificate.basis, out.certificate.basis);
   EXPECT_EQ(in.certificate.source_hash, out.certificate.source_hash);
   EXPECT_EQ(in.certificate.elements, out.certificate.elements);
@@ -128,7 +130,8 @@ TEST_F(BodyFile, RefusesWithASentence) {
   EXPECT_THAT(refusal("[1, 2]"), HasSubstr("'format' is missing"));
   EXPECT_THAT(refusal("/version", 99), HasSubstr("'version' is 99; this program reads versions 2 to 3"));
   EXPECT_THAT(refusal("/shape_integrals/J2", {{1.0, 2.0}}), HasSubstr("'shape_integrals.J2' has 1 rows where 12 are"));
-  EXPECT_THAT(refusal("/geometric_stiffness/0", {1.0}), HasSubstr("'geometric_stiffness[0]' has 1 numbers where 24"));
+  EXPECT_THAT(refusal("/geometric_stiffness/K/0", {1.0}),
+              HasSubstr("'geometric_stiffness.K[0]' has 1 numbers where 24"));
   EXPECT_THAT(refusal("/format", "something"), HasSubstr("not 'tenon reduced body'"));
   EXPECT_THAT(refusal("/units/length", "mm"), HasSubstr("'units.length' is 'mm'"));
   EXPECT_THAT(refusal("/zeta", {0.1}), HasSubstr("'zeta' has 1 numbers where 2 are expected"));

@@ -3,6 +3,7 @@
 
 #include "fem/error.hpp"
 #include "reduction/body_terms.hpp"
+#include "reduction/geometric_stiffness.hpp"
 #include "reduction/reduce.hpp"
 #include "tests/refusal.hpp"
 #include "tests/unit/reduction/beams.hpp"
@@ -243,4 +244,17 @@ TEST(Check, RefusesIntegralsOfAnotherBody) {
   EXPECT_NO_THROW(check(one.body));
   one.body.shape_integrals = other.body.shape_integrals;
   EXPECT_THAT(refusal([&] { check(one.body); }), HasSubstr("do not fit its 3 modes"));
+}
+
+TEST(GeometricStiffness, RefusesWhatDoesNotBelongTogether) {
+  const fem::Model model = beam({.elements = 6}, {{"root", 0}, {"tip", 6}}),
+                   other = beam({.elements = 4}, {{"root", 0}});
+  const fem::Structure structure = fem::assemble(model);
+  ReducedBody body = reduce(structure, "root", {.modes = 2});
+  EXPECT_THAT(refusal([&] { geometric_stiffness(other, structure, body); }), HasSubstr("the model that the structure"));
+  EXPECT_THAT(refusal([&] { geometric_stiffness(model, fem::assemble(other), body); }), HasSubstr("node shapes"));
+  body.stiffening = std::make_shared<const GeometricStiffness>(geometric_stiffness(model, structure, body));
+  EXPECT_NO_THROW(check(body));
+  body.ports.push_back(body.ports[1]);
+  EXPECT_THAT(refusal([&] { check(body); }), HasSubstr("geometric stiffness of body"));
 }

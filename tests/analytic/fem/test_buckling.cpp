@@ -1,0 +1,233 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "fem/structure.hpp"
+
+using namespace tenon::fem;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+using Keep = std::function<bool(const Vec3&, int)>;  // position, direction
+
+struct Loaded {
+  Model model;
+  Structure structure;
+  Eigen::MatrixXd K;  // both triangles
+};
+
+Loaded loaded(Model model) {
+  Loaded l{std::move(model), {}, {}};
+  l.structure = assemble(l.model);
+  l.K = Eigen::MatrixXd(l.structure.K).selfadjointView<Eigen::Lower>();
+  return l;
+}
+
+std::vector<int> rows(const Loaded& l, const Keep& keep) {
+  std::vector<int> kept;
+  for (int row = 0; row < l.structure.n(); ++row) {
+    const Dof& dof = l.structure.dofs.free[static_cast<std::size_t>(row)];
+    if (keep(l.structure.nodes[static_cast<std::size_t>(dof.node)], dof.direction)) kept.push_back(row);
+  }
+  return kept;
+}
+
+Eigen::MatrixXd stress_stiffness(const Loaded& l, const Eigen::VectorXd& u) {
+  return Eigen::MatrixXd(geometric_stiffness(l.model, l.structure, u)).selfadjointView<Eigen::Lower>();
+}
+
+// least λ > 0 with K + λ K_σ singular over the kept rows
+double buckling_load(const Loaded& l, const Eigen::VectorXd& u, const Keep& keep) {
+  const std::vector<int> kept = rows(l, keep);
+  const Eigen::MatrixXd K = l.K(kept, kept), K_sigma = stress_stiffness(l, u)(kept, kept);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> e(-K_sigma, K, Eigen::EigenvaluesOnly);
+  return 1.0 / e.eigenvalues().maxCoeff();
+}
+
+// displacement from a field, u(x) and no rotation
+Eigen::VectorXd field(const Loaded& l, const std::function<Vec3(const Vec3&)>& u) {
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(l.structure.n());
+  for (int row = 0; row < l.structure.n(); ++row) {
+    const Dof& dof = l.structure.dofs.free[static_cast<std::size_t>(row)];
+    if (dof.direction < 3) values[row] = u(l.structure.nodes[static_cast<std::size_t>(dof.node)])[dof.direction];
+  }
+  return values;
+}
+
+struct Column {
+  int elements = 8;
+  double kappa = 0.0;
+  Vec3 offset = Vec3::Zero();
+};
+
+constexpr double length = 2.0;
+const Vec3 along = Vec3(2.0, -1.0, 0.5).normalized();
+const Material steel{.name = "steel", .E = 2e11, .G = 8e10, .nu = 0.25, .rho = 7800.0};
+const BeamSection bar{.name = "bar", .A = 4e-4, .Iy = 3e-8, .Iz = 7e-8, .Iyz = 1e-8, .J = 5e-8};
+// the softer principal axis of [7 1; 1 3]e-8
+const double weak = 1e-8 * (5.0 - std::sqrt(5.0));
+
+// askew in space, clamped at node 0; its axis runs beside the nodes by `offset`
+Loaded column(const Column& c) {
+  Model model;
+  model.materials = {steel};
+  model.beam_sections = {bar};
+  model.beam_sections[0].kappa_y = model.beam_sections[0].kappa_z = c.kappa;
+  for (int k = 0; k <= c.elements; ++k) {
+    model.nodes.push_back(length * k / c.elements * along);
+    model.node_ids.push_back(k + 1);
+  }
+  for (int k = 0; k < c.elements; ++k)
+    model.elements.emplace_back(
+        Beam{.nodes = {k, k + 1}, .orientation = Vec3(0.3, 1.0, 0.2), .offsets = {c.offset, c.offset}, .id = k + 1});
+  return loaded(std::move(model));
+}
+
+double critical(const Column& c) {
+  const Loaded l = column(c);
+  const Keep held = [](const Vec3& p, int) { return p.norm() > 1e-9; };
+  // unit compression along the axis: its displacement is −x/EA exactly, without rotation
+  return buckling_load(l, field(l, [](const Vec3& p) { return Vec3(-p / (steel.E * bar.A)); }), held);
+}
+
+const double euler = pi * pi * steel.E * weak / (4.0 * length * length);
+
+}  // namespace
+
+TEST(Buckling, OfACantileverColumn) {
+  // P = π²EI/4L² about the softer principal axis; Hermite shapes err by (kh)⁴/720, k = π/2L
+  double last = 0.0;
+  for (const int elements : {2, 4}) {
+    const double kh = pi / (2.0 * elements), error = critical({.elements = elements}) / euler - 1.0;
+    EXPECT_GT(error, 0.0);
+    EXPECT_LT(error, kh * kh * kh * kh / 500.0);
+    if (last > 0.0) {
+      EXPECT_NEAR(last / error, 16.0, 1.0);
+    }
+    last = error;
+  }
+}
+
+TEST(Buckling, OfAColumnBesideItsNodesIsTheSame) {
+  const Vec3 across = along.cross(Vec3::UnitZ()).normalized();
+  EXPECT_NEAR(critical({.elements = 4, .offset = 0.1 * across}) / critical({.elements = 4}), 1.0, 1e-9);
+}
+
+TEST(Buckling, OfAColumnThatShearsIsEngessers) {
+  // v' − s = P v'/κGA and B s'' + P v' = 0: P = P_E / (1 + P_E/κGA), here with the P_E/κGA = 0.5
+  const double kappa = euler / (0.5 * steel.G * bar.A);
+  EXPECT_NEAR(critical({.elements = 40, .kappa = kappa}) / (euler / 1.5), 1.0, 1e-3);
+  const double coarse = critical({.elements = 20, .kappa = kappa}) / (euler / 1.5) - 1.0,
+               fine = critical({.elements = 40, .kappa = kappa}) / (euler / 1.5) - 1.0;
+  EXPECT_GT(std::abs(coarse / fine), 3.8);  // at least O(h²): what the shapes with a shear strain of their own leave
+}
+
+namespace {
+
+enum class Cells { quads, triangles };
+
+// a×b in a plane turned in space would hide which direction is which: x-y plane, nx×ny cells
+Loaded panel(double a, double b, int nx, int ny, double t, double nu, Cells cells, double distortion = 0.0) {
+  Model model;
+  model.materials = {{.name = "unit", .E = 1.0, .G = 0.5 / (1.0 + nu), .nu = nu, .rho = 1.0}};
+  model.shell_sections = {{.name = "plate", .thickness = t}};
+  for (int j = 0; j <= ny; ++j)
+    for (int i = 0; i <= nx; ++i) {
+      const bool inner = i > 0 && i < nx && j > 0 && j < ny;
+      const double off = inner ? distortion : 0.0;
+      model.nodes.emplace_back(a * (i + off * ((7 * i + 13 * j) % 5 - 2)) / nx,
+                               b * (j + off * ((11 * i + 3 * j) % 5 - 2)) / ny, 0.0);
+      model.node_ids.push_back(static_cast<long>(model.nodes.size()));
+    }
+  for (int j = 0; j < ny; ++j)
+    for (int i = 0; i < nx; ++i) {
+      const int k = j * (nx + 1) + i;
+      const std::array<int, 4> q{k, k + 1, k + nx + 2, k + nx + 1};
+      if (cells == Cells::quads) {
+        model.elements.emplace_back(Quad4{.nodes = q, .id = k + 1});
+      } else {
+        model.elements.emplace_back(Tria3{.nodes = {q[0], q[1], q[2]}, .id = 2 * k + 1});
+        model.elements.emplace_back(Tria3{.nodes = {q[0], q[2], q[3]}, .id = 2 * k + 2});
+      }
+    }
+  return loaded(std::move(model));
+}
+
+// k of N = k π² D / b² of a simply supported unit square under N_x = −1, N_y = −biaxial
+double plate_factor(Cells cells, int n, double biaxial, double distortion = 0.0) {
+  const double t = 1e-3, nu = 0.3, D = t * t * t / (12.0 * (1.0 - nu * nu));
+  const Loaded l = panel(1.0, 1.0, n, n, t, nu, cells, distortion);
+  const Eigen::VectorXd u = field(
+      l, [&](const Vec3& p) { return Vec3(-(1.0 - nu * biaxial) * p.x() / t, -(biaxial - nu) * p.y() / t, 0.0); });
+  const double N = buckling_load(l, u, [](const Vec3& p, int d) {
+    if (d < 2 || d > 4) return false;
+    const bool x = p.x() < 1e-9 || p.x() > 1 - 1e-9, y = p.y() < 1e-9 || p.y() > 1 - 1e-9;
+    return d == 2 ? !x && !y : d == 3 ? !x : !y;
+  });
+  return N / (pi * pi * D);
+}
+
+}  // namespace
+
+TEST(Buckling, OfASimplySupportedPlate) {
+  // (m² + n²)²/(m² + β n²): 4 in one direction, 2 in both; linked deflections err by O(h⁴) in rectangles
+  const double coarse = plate_factor(Cells::quads, 4, 0.0) - 4.0, fine = plate_factor(Cells::quads, 8, 0.0) - 4.0;
+  EXPECT_LT(std::abs(fine), 4e-3);
+  EXPECT_GT(std::abs(coarse / fine), 10.0);
+  EXPECT_NEAR(plate_factor(Cells::quads, 8, 1.0), 2.0, 2e-3);
+  EXPECT_NEAR(plate_factor(Cells::quads, 8, 0.0, 0.1), 4.0, 4e-2);  // distorted cells: O(h²)
+}
+
+TEST(Buckling, OfASimplySupportedPlateOfTriangles) {
+  const double coarse = plate_factor(Cells::triangles, 6, 0.0) - 4.0,
+               fine = plate_factor(Cells::triangles, 12, 0.0) - 4.0;
+  EXPECT_LT(std::abs(fine), 0.03);
+  EXPECT_GT(std::abs(coarse / fine), 3.5);  // O(h²), from six cells a half-wave on
+}
+
+TEST(Buckling, OfAStripInItsPlane) {
+  // a cantilever strip b = L/50 wide, ν = 0, pressed along its length, may bend in its plane: π² E t b³/48L². Its shear
+  // flexibility takes P/κGA < 1e-3 off; linear v over h = L/20 adds (kh)²/12 to the slopes' square
+  const double L = 1.0, b = 0.02, t = 0.05;
+  for (const Cells cells : {Cells::quads, Cells::triangles}) {
+    const Loaded l = panel(L, b, 20, 1, t, 0.0, cells);
+    const Eigen::VectorXd u = field(l, [&](const Vec3& p) { return Vec3(-p.x() / (t * b), 0.0, 0.0); });
+    const double P =
+        buckling_load(l, u, [](const Vec3& p, int d) { return p.x() > 1e-9 && (d == 0 || d == 1 || d == 5); });
+    EXPECT_NEAR(P / (pi * pi * t * b * b * b / (48.0 * L * L)), 1.0, 2e-3);
+  }
+}
+
+TEST(GeometricStiffness, TurnsTheNodeForcesWithARigidRotation) {
+  // K_σ (φ × x) = φ × F where F = K u are the forces of a uniform stress
+  const double nu = 0.3;
+  const auto turned = [&](const Loaded& l, const Eigen::VectorXd& u) {
+    const Eigen::VectorXd F = l.K * u, phi = Vec3(0.3, -0.5, 0.7);
+    const Eigen::VectorXd G = stress_stiffness(l, u) * rigid_motions(l.structure, Vec3::Zero()).rightCols<3>() * phi;
+    double error = 0.0;
+    for (std::size_t node = 0; node < l.structure.nodes.size(); ++node) {
+      Vec3 force, change;
+      for (int d = 0; d < 3; ++d) {
+        force[d] = F[l.structure.dofs.row({static_cast<int>(node), d})];
+        change[d] = G[l.structure.dofs.row({static_cast<int>(node), d})];
+      }
+      error = std::max(error, (change - Vec3(phi).cross(force)).norm());
+    }
+    return error / F.norm();
+  };
+  const Loaded beam = column({});
+  EXPECT_LT(turned(beam, field(beam, [](const Vec3& p) { return p; })), 1e-12);
+  for (const Cells cells : {Cells::quads, Cells::triangles}) {
+    const Loaded plate = panel(1.0, 0.7, 4, 3, 0.1, nu, cells, 0.1);
+    EXPECT_LT(turned(plate, field(plate,
+                                  [](const Vec3& p) {
+                                    return Vec3(0.4 * p.x() + 0.3 * p.y(), 0.3 * p.x() - 0.2 * p.y(), 0.0);
+                                  })),
+              1e-12);
+  }
+}
