@@ -238,6 +238,18 @@ TEST_F(Cli, SweepTurnsAJointAndItsLoop) {
     EXPECT_THAT(text(folder_.path() / picture), HasSubstr("</svg>"));
 }
 
+// Names of a scene may hold what SVG keeps for itself.
+TEST_F(Cli, PicturesEscapeNames) {
+  std::string scene = text(fs::path(TENON_SOURCE_DIR) / "data/fourbar/scene.yaml");
+  for (std::size_t at = 0; (at = scene.find("drive", at)) != std::string::npos; at += 4) scene.replace(at, 5, "d<&>");
+  folder_.write("odd.yaml", scene);
+  ASSERT_EQ(tenon("sweep odd.yaml --joint 'd<&>' --to 10 --steps 2 --svg plot.svg --shapes s.svg --at 0").status, 0);
+  for (const char* picture : {"plot.svg", "s.svg"}) {
+    EXPECT_THAT(text(folder_.path() / picture), HasSubstr("'d&lt;&amp;&gt;'"));
+    EXPECT_THAT(text(folder_.path() / picture), testing::Not(HasSubstr("d<")));
+  }
+}
+
 TEST_F(Cli, DoctorSaysWhatIsLinkedAndUnderWhichTerms) {
   const json doctor = object("doctor");
   EXPECT_TRUE(doctor["libraries"].contains("CHOLMOD"));
