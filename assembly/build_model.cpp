@@ -116,4 +116,17 @@ fem::Model build_model(const SceneBody& body) {
   return model;
 }
 
+FullModel full_model(const Scene& scene, const Network& network) {
+  std::vector<fem::Model> models(scene.bodies.size());
+  std::vector<const fem::Model*> pointers(scene.bodies.size(), nullptr);
+  for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
+    const SceneBody& body = scene.bodies[k];
+    if (!body.has_model()) continue;
+    const auto* beam = std::get_if<BeamSource>(&body.source);
+    models[k] = beam ? full_beam_model(body, *beam) : build_model(body);
+    pointers[k] = &models[k];
+  }
+  return full_model(network, pointers);
+}
+
 }  // namespace tenon::assembly

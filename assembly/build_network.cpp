@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "assembly/build.hpp"
 #include "assembly/build_beam.hpp"
 #include "assembly/close_angles.hpp"
+#include "assembly/same_body.hpp"
 #include "reduction/body_file.hpp"
 
 namespace tenon::assembly {
@@ -150,11 +152,20 @@ Network connect(const Scene& scene, std::vector<ReducedBody> bodies) {
 Network build_network(const Scene& scene, const Plan& plan, const reduction::Progress& progress) {
   std::vector<ReducedBody> bodies;
   const double all = static_cast<double>(scene.bodies.size());
+  std::map<std::string, std::size_t> made;  // by fingerprint
   for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
     const auto part = [&](double done, const char* step) {
       if (progress) progress((static_cast<double>(k) + done) / all, step);
     };
-    bodies.push_back(build_body(scene.bodies[k], plan.bodies[k], part));
+    const std::string kind = fingerprint(scene.bodies[k], plan.bodies[k]);
+    const auto [same, first] = made.try_emplace(kind, k);
+    if (first || kind.empty()) {
+      bodies.push_back(build_body(scene.bodies[k], plan.bodies[k], part));
+    } else {
+      bodies.push_back(bodies[same->second]);
+      bodies.back().name = scene.bodies[k].name;
+      part(1.0, "the same as before");
+    }
   }
   return connect(scene, std::move(bodies));
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "assembly/kinematics.hpp"
+#include "reduction/roots.hpp"
 
 namespace tenon::assembly {
 
@@ -77,7 +78,8 @@ void add_body(const Builder& b, int k, Rows& W, Rows& E, Rows& F) {
   b.d.M.block(o + 6, o + 6, m, m).setIdentity();
   b.d.K.diagonal().segment(o + 6, m) = body.omega.cwiseAbs2();
   b.d.C.block(o + 6, o + 6, m, m) = reduction::damping(body);
-  W.next(6).middleCols<6>(o) = mass_root(body.D - body.L.transpose() * body.L, body.D.diagonal()) * R6.transpose();
+  W.next(6).middleCols<6>(o) =
+      reduction::mass_root(body.D - body.L.transpose() * body.L, body.D.diagonal()) * R6.transpose();
   auto flexible = W.next(m);
   flexible.middleCols<6>(o) = L;
   flexible.middleCols(o + 6, m).setIdentity();
@@ -96,9 +98,10 @@ void scale_body(const Builder& b, int k) {
   b.d.scale.segment(o + 6, body.n()) = natural_amplitudes(body, length);
 }
 
+constexpr const char* direction[6] = {"translation x", "translation y", "translation z",
+                                      "rotation x",    "rotation y",    "rotation z"};
+
 void add_joint_rows(const Builder& b, const Joint& joint, Rows& G) {
-  static constexpr const char* direction[6] = {"translation x", "translation y", "translation z",
-                                               "rotation x",    "rotation y",    "rotation z"};
   const MatrixXd relative = b.relative(joint);
   const auto label = [&](const char* what) {
     b.d.row_names.push_back(fmt::format("joint '{}', {}", joint.name, what));
@@ -145,7 +148,7 @@ DisjointSystem disjoint(const Network& network) {
     Vec6 scale;
     scale << Vec3::Constant(lump.mass), Vec3::Constant(lump.inertia.trace());
     d.M += rows.transpose() * M * rows;
-    W.next(6) = mass_root(M, scale) * rows;
+    W.next(6) = reduction::mass_root(M, scale) * rows;
   }
   Rows G(6 * joints + 6 * static_cast<Index>(network.ground.size()), n);
   for (const Joint& joint : network.joints) {
@@ -161,12 +164,15 @@ DisjointSystem disjoint(const Network& network) {
   }
   for (const PortRef& ref : network.ground) {
     G.next(6) = b.port(ref);
-    for (int i = 0; i < 6; ++i) d.row_names.push_back(fmt::format("ground of {}, row {}", name(network, ref), i + 1));
+    for (int i = 0; i < 6; ++i)
+      d.row_names.push_back(fmt::format("ground of {}, {}", name(network, ref), direction[i]));
   }
   d.mass_root = W.matrix.topRows(W.used);
   d.damping_root = E.matrix.topRows(E.used);
   d.stiffness_root = F.matrix.topRows(F.used);
   d.G = G.matrix.topRows(G.used);
+  for (const std::string& row : d.row_names)
+    d.row_units.emplace_back(row.find("translation") != std::string::npos ? "N" : "N m");
 
   d.B = MatrixXd::Zero(n, static_cast<Index>(network.inputs.size()));
   for (std::size_t i = 0; i < network.inputs.size(); ++i) {

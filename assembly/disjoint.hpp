@@ -20,6 +20,7 @@ struct DisjointSystem {
   Eigen::MatrixXd position_rows;  ///< outputs×q: the displacement whose position, velocity or acceleration is asked
   Eigen::MatrixXd G;              ///< rows×q, unscaled: translations [m], rotations [rad]
   std::vector<std::string> row_names;  ///< of G: "joint 'tip', translation y"
+  std::vector<std::string> row_units;  ///< of what each row transmits: "N" or "N m"
   Eigen::VectorXd scale;  ///< q: natural size of each coordinate (1 m, 1/length rad, η that moves a port by 1 m)
 };
 

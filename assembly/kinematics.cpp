@@ -1,6 +1,5 @@
 #include "assembly/kinematics.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
 namespace tenon::assembly {
@@ -53,19 +52,6 @@ titop::Channel channel(const Output& output) {
     default:
       return {output.name, length + "/s²"};
   }
-}
-
-Mat6 mass_root(const Mat6& D, const Vec6& scale) {
-  const Vec6 s = scale.cwiseMax(0.0).cwiseSqrt();
-  Vec6 inverse = Vec6::Zero();
-  for (int i = 0; i < 6; ++i)
-    if (s[i] > 0.0) inverse[i] = 1.0 / s[i];
-  const Eigen::SelfAdjointEigenSolver<Mat6> eigen(inverse.asDiagonal() * (0.5 * (D + D.transpose())) *
-                                                  inverse.asDiagonal());
-  Vec6 root = Vec6::Zero();
-  for (int i = 0; i < 6; ++i)
-    if (eigen.eigenvalues()[i] > 1e-12) root[i] = std::sqrt(eigen.eigenvalues()[i]);
-  return root.asDiagonal() * eigen.eigenvectors().transpose() * s.asDiagonal();
 }
 
 }  // namespace tenon::assembly

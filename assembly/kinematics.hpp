@@ -30,8 +30,4 @@ fem::Mat6 lumped_mass(const LumpedMass& lump, const Mat3& R);
 titop::Channel channel(const Input& input);
 titop::Channel channel(const Output& output);
 
-/// S (6×6) with SᵀS = D for a symmetric positive semi-definite D; directions below 1e-12 of diag(`scale`) are exact
-/// zeros. Scaled by diag(scale), so heavy translations do not hide light rotations.
-fem::Mat6 mass_root(const fem::Mat6& D, const fem::Vec6& scale);
-
 }  // namespace tenon::assembly

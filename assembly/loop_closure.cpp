@@ -72,7 +72,8 @@ StateSpace with_cuts(const Network& network, const OpenLoops& open, const PortTr
     const bool turns = revolute(network, closure);
     for (int d = 0; d < 6; ++d) {
       const std::string what = turns && d == 5   ? "rotation about the axis"
-                               : turns && d >= 3 ? "rotation across the axis"
+                               : turns && d == 4 ? "second rotation across the axis"
+                               : turns && d == 3 ? "rotation across the axis"
                                                  : direction_names[d];
       in.push_back({fmt::format("{}, {}", cut_name(network, closure), what), d < 3 ? "N" : "N m"});
       out.push_back({in.back().name, d < 3 ? "m/s²" : "rad/s²"});
@@ -107,11 +108,18 @@ StateSpace with_drive(const StateSpace& ss, const Joint& joint, Index in, Index 
   return titop::connect(all, w).ss;
 }
 
-// Rows of the relative motion at a cut over the coordinates.
-Mat6X relative_rows(const Network& network, const PortTree& tree, const LoopMotions& motions, const Closure& closure) {
-  if (closure.joint < 0) return motions.port(closure.ground);
+// Motions of the two sides of a cut over the coordinates, in its axes; the ground's is zero.
+struct Sides {
+  Mat6X child, parent;
+};
+Sides sides_of(const Network& network, const PortTree& tree, const LoopMotions& motions, const Closure& closure) {
+  if (closure.joint < 0) {
+    const Mat6X child = motions.port(closure.ground);
+    return {child, Mat6X::Zero(6, child.cols())};
+  }
   const Joint& joint = network.joints[static_cast<std::size_t>(closure.joint)];
-  return axes_of(network, tree, closure).transpose() * (motions.port(joint.child) - motions.port(joint.parent));
+  const Mat6 turn = axes_of(network, tree, closure).transpose();
+  return {turn * motions.port(joint.child), turn * motions.port(joint.parent)};
 }
 
 // Orthonormal basis of the motions of the coordinates `kept` that the closure rows allow when all the other coordinates
@@ -157,8 +165,11 @@ Held held_rows(const Network& network, const OpenLoops& open, const PortTree& tr
   const LoopMotions motions(open.network, tree, c);
   Held held{{}, MatrixXd::Zero(6 * static_cast<Index>(open.closures.size()), c.size)};
   Index rows = 0;
+  std::vector<std::string> redundant;
+  double apart = 0.0;
   for (std::size_t k = 0; k < open.closures.size(); ++k) {
-    const Mat6X relative = relative_rows(network, tree, motions, open.closures[k]) * c.scale.asDiagonal();
+    const Sides sides = sides_of(network, tree, motions, open.closures[k]);
+    const Mat6X relative = (sides.child - sides.parent) * c.scale.asDiagonal();
     for (int d = 0; d < 6; ++d) {
       const int channel = 6 * static_cast<int>(k) + d;
       const double unit = d < 3 ? 1.0 : length;
@@ -168,9 +179,18 @@ Held held_rows(const Network& network, const OpenLoops& open, const PortTree& tr
       } else if (relative_size(channel) > nothing * size[d / 3]) {
         held.channels.push_back(channel);
         held.J.row(rows++) = unit * relative.row(d);
+      } else if (const double moves = (sides.child.row(d) * c.scale.asDiagonal()).norm(); unit * moves > nothing) {
+        redundant.push_back("'" + ss.outputs[static_cast<std::size_t>(ny + channel)].name + "'");
+        apart = std::max(apart, relative_size(channel) / size[d / 3]);
       }
     }
   }
+  if (!redundant.empty())
+    throw NumericalError(
+        fmt::format("closure rows are redundant, the sides of the cut move there but never apart: {}; relative motion "
+                    "against their own",
+                    fmt::join(redundant, ", ")),
+        apart, "Use the second-order route, which takes redundant rows, or let one side give way there");
   held.J.conservativeResize(rows, Eigen::NoChange);
   return held;
 }

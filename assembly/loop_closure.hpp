@@ -24,10 +24,14 @@ OpenLoops open_loops(const Network& network);
 
 /// Closes the loops of a tree's port model as section 2.2 of the TITOP paper does: the wrench that a cut passes is the
 /// input, the relative acceleration of its two sides the output; the held channels are inverted, and what is prescribed
-/// then is zero. A relative acceleration that nothing can cause (across the plane of a planar mechanism) is held
-/// already, and left alone. States are confined to the motions that the loops allow, by an orthonormal basis of the
-/// null space of the closure rows, so that no integrators of prescribed motion remain. Throws NumericalError, naming
-/// the channels, where closure rows are redundant.
+/// then is zero. States are confined to the motions that the loops allow, by an orthonormal basis of the null space of
+/// the closure rows, so that no integrators of prescribed motion remain.
+///
+/// A row of zeros on both sides, where neither side of the cut can move (across the plane of a grounded planar
+/// mechanism), has no content: the exact zero-padding of a planar model. It is no equation, and left out. A row in
+/// which the sides move but never apart (two rigid bars welded at both ends; a planar mechanism that floats in space)
+/// is redundant, its reaction indeterminate. Throws NumericalError, naming the channels, for those and for rows that
+/// follow from the others.
 PortAlgebra close_loops(const Network& network, const OpenLoops& open, const PortTree& tree);
 
 }  // namespace tenon::assembly

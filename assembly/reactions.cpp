@@ -28,6 +28,7 @@ Reactions reactions(const Network& network, const SecondOrderSystem& system, dou
   const MatrixXd inverse = decomposition.compute(A).pseudoInverse();
   Reactions result;
   result.names = d.row_names;
+  result.units = d.row_units;
   result.value = weight.asDiagonal() * (inverse * (d.scale.asDiagonal() * force));
   const MatrixXd fixed = inverse * A;  // projects onto what equilibrium fixes
   for (Index i = 0; i < G.rows(); ++i) result.determinate.push_back(std::abs(fixed(i, i) - 1.0) < 1e-8);

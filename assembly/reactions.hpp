@@ -11,6 +11,7 @@ namespace tenon::assembly {
 /// child, or the ground to the body, along that row's direction; a column for each unit input.
 struct Reactions {
   std::vector<std::string> names;  ///< of the rows: "joint 'tip', translation y"
+  std::vector<std::string> units;  ///< "N" or "N m", per unit of the input
   Eigen::MatrixXcd value;          ///< rows×inputs
   std::vector<bool> determinate;   ///< equilibrium alone fixes the row; else its value is one of many, of least norm
 };

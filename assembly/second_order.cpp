@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <Eigen/LU>
-#include <Eigen/SVD>
 #include <set>
 
 #include "assembly/disjoint.hpp"
 #include "assembly/kinematics.hpp"
 #include "assembly/rank.hpp"
 #include "fem/error.hpp"
+#include "reduction/roots.hpp"
 
 namespace tenon::assembly {
 
@@ -19,22 +19,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 namespace {
-
-// Σ descending and V of a tall matrix of full or deficient column rank.
-struct RightSvd {
-  VectorXd sigma;
-  MatrixXd V;
-};
-
-RightSvd right_svd(const MatrixXd& A) {
-  constexpr Index jacobi_below = 160;  // Jacobi keeps the small singular values better, at several times the cost
-  if (A.cols() <= jacobi_below) {
-    const Eigen::JacobiSVD<MatrixXd> svd(A, Eigen::ComputeThinV);
-    return {svd.singularValues(), svd.matrixV()};
-  }
-  const Eigen::BDCSVD<MatrixXd> svd(A, Eigen::ComputeThinV);
-  return {svd.singularValues(), svd.matrixV()};
-}
 
 [[noreturn]] void refuse_massless(const Network& network, const DisjointSystem& d, const VectorXd& motion) {
   std::set<std::string> names;
@@ -85,7 +69,8 @@ SecondOrderSystem second_order(const Network& network) {
   VectorXd sigma = VectorXd::Zero(f);
   N.leftCols(r) = X_unit;
   if (f > 0) {
-    const RightSvd svd = right_svd(rigid.Qt_apply.bottomRows(W.rows() - r));
+    const MatrixXd rest = rigid.Qt_apply.bottomRows(W.rows() - r);
+    const reduction::ThinSvd svd = reduction::thin_svd(rest);
     sigma.head(svd.sigma.size()) = svd.sigma;
     sigma.tail(s.massless).setZero();
     N.rightCols(f) = Z_free * svd.V;

@@ -1,18 +1,24 @@
 #include <fmt/format.h>
 
-#include <Eigen/LU>
-
 #include "fem/error.hpp"
 #include "reduction/eq1.hpp"
 #include "reduction/geometric_stiffness.hpp"
 #include "reduction/reduced_body.hpp"
+#include "reduction/roots.hpp"
 #include "reduction/shape_integrals.hpp"
 
 namespace tenon::reduction {
 
-// x_Q = τ_Q x_ref + Φ_Q η, so x_ref = τ_Q⁻¹(x_Q − Φ_Q η): the congruence S = [τ_Q⁻¹ −τ_Q⁻¹Φ_Q; 0 1] of
-// M = [D Lᵀ; L 1] leaves K = diag(0, Ω²), and η is now the motion relative to port Q:
-//   D' = τ⁻ᵀDτ⁻¹,  M_ηQ = (L − Φ_QᵀD̄)τ⁻¹ with D̄ = τ⁻ᵀD,  M_ηη = 1 − Lτ⁻¹Φ_Q − (·)ᵀ + Φ_QᵀD'Φ_Q.
+namespace {
+
+constexpr double massless = 1e-13;  // of the largest 1/ω: below, a direction has no mass but rounding
+
+}  // namespace
+
+// x_Q = τ_Q x_ref + Φ_Q η. With M = [D Lᵀ; L 1] = WᵀW, W = [S 0; L 1], SᵀS = D − LᵀL, the motion relative to port Q is
+// (−τ_Q⁻¹Φ_Q η, η), its mass root A = [−Sτ_Q⁻¹Φ_Q; 1 − Lτ_Q⁻¹Φ_Q], that of the motion with port Q W_Q = [S; L] τ_Q⁻¹.
+//   A Ω⁻¹ = U σ Yᵀ gives ω = 1/σ, V = Ω⁻¹Y σ⁻¹, L' = Vᵀ Aᵀ W_Q = Uᵀ W_Q, D' = τ_Q⁻ᵀ D τ_Q⁻¹:
+// neither mass nor ω is ever squared, so a load 1e12 times the body costs six digits of the others, not twelve.
 ReducedBody rebase(const ReducedBody& body, int port) {
   if (port < 0 || port >= static_cast<int>(body.ports.size()))
     throw ModelError(fmt::format("body '{}' has no port number {}", body.name, port),
@@ -26,38 +32,44 @@ ReducedBody rebase(const ReducedBody& body, int port) {
   const Mat6 inverse = fem::tau(body.reference - hung.position);  // τ_Q⁻¹
   const Mat6X Phi_Q = hung.Phi;
   const Mat6 D = inverse.transpose() * body.D * inverse;
-  const Eigen::MatrixXd L_Q = body.L * inverse;  // participation with the reference moved rigidly to Q
-
-  RelativeForm relative;
-  relative.K_zz = body.omega.cwiseAbs2().asDiagonal();
-  relative.M_zz = Eigen::MatrixXd::Identity(body.n(), body.n()) - L_Q * Phi_Q - (L_Q * Phi_Q).transpose() +
-                  Phi_Q.transpose() * D * Phi_Q;
-  relative.M_zP = L_Q - Phi_Q.transpose() * D;
-  const ModalForm modal = modal_form(relative);
+  const Eigen::Index n = body.n();
+  const Mat6 S = mass_root(body.D - body.L.transpose() * body.L, body.D.diagonal());
+  Eigen::MatrixXd W_Q(6 + n, 6);
+  W_Q << S * inverse, body.L * inverse;
+  Eigen::MatrixXd A = -W_Q * Phi_Q;
+  A.bottomRows(n) += Eigen::MatrixXd::Identity(n, n);
+  const Eigen::VectorXd flexibility = body.omega.cwiseInverse();  // its root
+  const ThinSvd svd = thin_svd(A * flexibility.asDiagonal());
+  Eigen::Index finite = 0;
+  while (finite < n && svd.sigma[finite] > massless * svd.sigma[0]) ++finite;
+  if (n > 0 && finite == 0)
+    throw ModelError(fmt::format("body '{}' has stiffness but no mass at all", body.name), "Give it mass");
+  Eigen::VectorXd omega = svd.sigma.cwiseInverse();
+  omega.tail(n - finite).setConstant(finite > 0 ? massless_frequency * omega[finite - 1] : 0.0);
+  const Eigen::MatrixXd V = flexibility.asDiagonal() * svd.V * omega.asDiagonal();
 
   ReducedBody result = body;
   result.kind = ReducedBody::Kind::cantilever;
   result.reference = hung.position;
   result.parent = port;
-  result.omega = modal.omega;
-  result.L = modal.L;
+  result.omega = omega;
+  result.L = svd.U.transpose() * W_Q;
+  result.L.bottomRows(n - finite).setZero();
   result.D = 0.5 * (D + D.transpose());
-  if (body.C.size() > 0 || body.zeta.cwiseAbs().sum() > 0.0)
-    set_damping(result, modal.V.transpose() * damping(body) * modal.V);
+  if (body.C.size() > 0 || body.zeta.cwiseAbs().sum() > 0.0) set_damping(result, V.transpose() * damping(body) * V);
   for (BodyPort& p : result.ports)  // x_k = τ_k τ_Q⁻¹ x_Q + (Φ_k − τ_k τ_Q⁻¹ Φ_Q) η
-    p.Phi = (p.Phi - fem::tau(p.position - hung.position) * Phi_Q) * modal.V;
-  result.ports[static_cast<std::size_t>(port)].Phi = Mat6X::Zero(6, modal.V.cols());
+    p.Phi = (p.Phi - fem::tau(p.position - hung.position) * Phi_Q) * V;
+  result.ports[static_cast<std::size_t>(port)].Phi = Mat6X::Zero(6, V.cols());
   if (body.node_shapes.size() > 0) {
     Eigen::MatrixXd shapes = body.node_shapes;
     for (std::size_t k = 0; k < body.node_positions.size(); ++k)
       shapes.middleRows<6>(6 * static_cast<Eigen::Index>(k)) -=
           fem::tau(body.node_positions[k] - hung.position) * Phi_Q;
-    result.node_shapes = shapes * modal.V;
+    result.node_shapes = shapes * V;
   }
   if (body.shape_integrals)
-    result.shape_integrals = std::make_shared<const ShapeIntegrals>(rebased(body, hung.position, Phi_Q, modal.V));
-  if (body.stiffening)
-    result.stiffening = std::make_shared<const GeometricStiffness>(rebased_stiffness(body, port, modal.V));
+    result.shape_integrals = std::make_shared<const ShapeIntegrals>(rebased(body, hung.position, Phi_Q, V));
+  if (body.stiffening) result.stiffening = std::make_shared<const GeometricStiffness>(rebased_stiffness(body, port, V));
   return result;
 }
 

@@ -5,12 +5,26 @@
 
 namespace tenon::reduction {
 
+namespace {
+
+// Free-free modes need the mass of every rigid motion; a straight bar without torsional inertia has none about its
+// axis.
+Eigen::MatrixXd rigid_modes(const fem::Structure& structure, const Eigen::MatrixXd& R) try {
+  return null_motions(structure.K, structure.M, R);
+} catch (const ModelError&) {
+  throw ModelError("a rigid motion of the body carries no mass, and the basis 'rubin' takes free-free modes",
+                   "Take craig-bampton-inertia-relief or craig-bampton, which hold the parent port, or give it mass "
+                   "(density, torsional inertia of bars, point masses)");
+}
+
+}  // namespace
+
 // Over the rows i that are not the parent's: F̄ is in equilibrium, so K X = F̄ with X_P = 0 is K_ii X_i = F̄_i.
 Subspace free_modes(const fem::Structure& structure, const Partition& parts, const Eigen::MatrixXd& R,
                     const ModesOptions& options) {
   Subspace space;
   Modes& modes = space.modes;
-  const Eigen::MatrixXd rigid = null_motions(structure.K, structure.M, R);
+  const Eigen::MatrixXd rigid = rigid_modes(structure, R);
   modes.lambda = Eigen::VectorXd::Zero(rigid.cols());
   modes.shapes = rigid;
   modes.rigid = static_cast<int>(rigid.cols());

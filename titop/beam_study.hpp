@@ -30,6 +30,54 @@ struct BeamBasis {
 std::vector<std::optional<Eigen::VectorXd>> beam_frequencies(const BeamBasis& basis, const std::vector<Ends>& ends,
                                                              int count);
 
+/// √(EI/ρSl⁴) [rad/s].
+double bending_unit(double E, double I, double rho, double S, double length);
+
+/// Exact frequency of a mode, 1 the lowest flexible one.
+double exact_frequency(const Ends& ends, int mode);
+
+/// ω/ω_exact − 1.
+double frequency_error(double omega, const Ends& ends, int mode);
+
+/// One frequency of one case by each basis; nothing where a basis has none.
+struct BeamStudyEntry {
+  Ends ends;
+  int mode;
+  double exact;
+  std::vector<std::optional<double>> omega;
+};
+
+struct BeamStudy {
+  std::vector<std::string> bases;  ///< "G_pol", "CB 2+2", "CB+IR 4+2"
+  std::vector<BeamStudyEntry> entries;
+};
+
+/// The two lowest modes of each case by the quintic, by Craig-Bampton and by Craig-Bampton with inertia relief, the
+/// last two with `modes` fixed-interface modes of `elements` finite elements.
+BeamStudy beam_study(const std::vector<Ends>& cases, int modes, int elements);
+
+/// The two lowest frequencies of free-clamped beams of 4, 8, 16 and 64 clamped-free modes: the inverse of G_f,n in
+/// table 1, where the paper's figures are misprints.
+struct InverseOfClampedFree {
+  int modes;
+  Eigen::Vector2d omega;
+};
+std::vector<InverseOfClampedFree> inverse_of_clamped_free();
+
+/// Error |ω/ω_exact − 1| of the lowest three modes as something grows; NaN where the basis has no such mode.
+struct BeamConvergence {
+  std::string against;                     ///< "elements" or "kept modes"
+  std::vector<double> number;              ///< of them
+  std::vector<std::vector<double>> error;  ///< per mode
+};
+
+/// Craig-Bampton with inertia relief: 2, 4, 8 .. elements up to twice `most`, with so many modes that the elements
+/// limit it.
+BeamConvergence convergence_with_elements(const Ends& ends, int most);
+
+/// The same with 1, 2, 3 .. `most` + 6 modes of 128 elements.
+BeamConvergence convergence_with_modes(const Ends& ends, int most);
+
 /// The eleven cases of the paper: table 1 (clamped-free, free-clamped) and tables 3 to 11.
 std::vector<Ends> paper_cases();
 

@@ -1,9 +1,13 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <numbers>
+#include <optional>
 
 #include "assembly/build.hpp"
+#include "assembly/reactions.hpp"
 #include "assembly/second_order.hpp"
+#include "fem/error.hpp"
 #include "fem/formats/atomic_file.hpp"
 #include "interfaces/cli/commands.hpp"
 #include "interfaces/cli/output.hpp"
@@ -13,8 +17,63 @@ namespace {
 
 struct Options {
   std::filesystem::path scene, output;
+  std::optional<double> reactions_hz;
   bool json = false;
 };
+
+/// At the frequency asked for; nothing when none was.
+std::optional<assembly::Reactions> reactions_of(const Options& options, const assembly::Network& network,
+                                                const assembly::SecondOrderSystem& system) {
+  if (!options.reactions_hz) return std::nullopt;
+  if (network.inputs.empty())
+    throw InputError({options.scene.string()}, "the scene names no inputs, so its joints have nothing to transmit",
+                     "Add `inputs: {push: {at: body.port, force: x}}`");
+  return assembly::reactions(network, system, 2.0 * std::numbers::pi * *options.reactions_hz);
+}
+
+Json to_json(const assembly::Reactions& r, double frequency_hz, const std::vector<titop::Channel>& inputs) {
+  Json object{{"frequency_hz", frequency_hz}, {"rows", Json::array()}};
+  for (std::size_t i = 0; i < r.names.size(); ++i) {
+    Json row{{"name", r.names[i]}, {"unit", r.units[i]}, {"determinate", bool(r.determinate[i])}};
+    for (std::size_t u = 0; u < inputs.size(); ++u) {
+      const std::complex<double> value = r.value(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(u));
+      row["per_unit_input"][inputs[u].name] = {value.real(), value.imag()};
+    }
+    object["rows"].push_back(std::move(row));
+  }
+  return object;
+}
+
+/// Signed where in phase, else magnitude and phase; 0 for round-off beside the largest of its kind.
+std::string phasor(std::complex<double> value, double largest) {
+  if (std::abs(value) <= 1e-12 * largest) return "0";
+  if (std::abs(value.imag()) <= 1e-9 * std::abs(value)) return fmt::format("{:.5g}", value.real());
+  return fmt::format("{:.4g} ∠ {:.0f}°", std::abs(value), std::arg(value) * 180.0 / std::numbers::pi);
+}
+
+void print_people(const assembly::Reactions& r, double frequency_hz, const std::vector<titop::Channel>& inputs) {
+  constexpr std::size_t most = 3;  // columns of a page
+  const std::size_t shown = std::min(most, inputs.size());
+  std::vector<std::string> heads{"<reaction", "<unit"};
+  for (std::size_t u = 0; u < shown; ++u) heads.push_back(inputs[u].name);
+  Table table(heads);
+  bool free = false;
+  for (std::size_t i = 0; i < r.names.size(); ++i) {
+    std::vector<std::string> row{(r.determinate[i] ? "" : "* ") + r.names[i], r.units[i]};
+    free = free || !r.determinate[i];
+    for (std::size_t u = 0; u < shown; ++u)
+      row.push_back(phasor(r.value(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(u)),
+                           r.value.col(static_cast<Eigen::Index>(u)).cwiseAbs().maxCoeff()));
+    table.row(std::move(row));
+  }
+  print(fmt::format("\n  On the joint's child, or by the ground on the body, at {:.6g} Hz, per unit of", frequency_hz));
+  print(table);
+  if (free)
+    print(
+        wrapped("* indeterminate: closure rows are redundant, equilibrium allows others; this is the one of least "
+                "norm."));
+  if (shown < inputs.size()) print(wrapped(fmt::format("{} more inputs: --json", inputs.size() - shown)));
+}
 
 Json rows_of(const Eigen::MatrixXd& matrix) {
   Json rows = Json::array();
@@ -90,13 +149,16 @@ int run(const Options& options) {
   const assembly::SecondOrderSystem system = assembly::second_order(network);
   const assembly::SystemModes modes = assembly::modes(system);
   const titop::StateSpace ss = assembly::state_space(network, system);
-  const Json object = summary(options, system, modes, ss);
+  const std::optional<assembly::Reactions> reactions = reactions_of(options, network, system);
+  Json object = summary(options, system, modes, ss);
+  if (reactions) object["reactions"] = to_json(*reactions, *options.reactions_hz, ss.inputs);
   if (!options.output.empty()) write_system(options.output, object, ss);
   if (options.json) {
     print(object);
     return done;
   }
   print_people(options, system, modes, ss);
+  if (reactions) print_people(*reactions, *options.reactions_hz, ss.inputs);
   if (!options.output.empty()) print(fmt::format("\nWritten: {}", options.output.string()));
   return done;
 }
@@ -108,8 +170,12 @@ void add_assemble(CLI::App& program, int& status) {
   CLI::App* command = program.add_subcommand("assemble", "the linear system of a scene: modes and state space");
   command->add_option("SCENE", options->scene, "a scene (.yaml, .json)")->required();
   command->add_option("-o,--output", options->output, "write A, B, C, D with named channels as JSON");
+  command
+      ->add_option("--reactions", options->reactions_hz,
+                   "what joints and ground transmit at this frequency [Hz]; 0: at rest")
+      ->check(CLI::NonNegativeNumber);
   command->add_flag("--json", options->json, "one JSON object (without the matrices)");
-  command->footer("Example: tenon assemble scene.yaml -o system.json");
+  command->footer("Example: tenon assemble scene.yaml -o system.json --reactions 0.5");
   command->callback([options, &status] { status = run(*options); });
 }
 

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <numbers>
 
@@ -11,16 +10,16 @@
 #include "interfaces/cli/commands.hpp"
 #include "interfaces/cli/output.hpp"
 #include "interfaces/report/svg.hpp"
-#include "titop/beam_roots.hpp"
 #include "titop/beam_study.hpp"
 
 namespace tenon::cli {
 namespace {
 
-using titop::BeamBasis;
+using titop::BeamConvergence;
+using titop::BeamStudy;
+using titop::BeamStudyEntry;
 using titop::End;
 using titop::Ends;
-using Kind = BeamBasis::Kind;
 
 struct Options {
   double length = 0.0;
@@ -28,26 +27,6 @@ struct Options {
   int modes = 2, elements = 64;
   std::filesystem::path svg;
   bool json = false;
-};
-
-/// One frequency of one case by one basis, in units of √(EI/ρSl⁴).
-struct Entry {
-  Ends ends;
-  int mode;
-  double reference;
-  std::vector<std::optional<double>> values;  ///< by the bases of the study, in their order
-};
-
-struct Study {
-  std::vector<std::string> names;  ///< of the bases
-  std::vector<Entry> entries;
-};
-
-/// Error of the first modes against the number of elements or of kept modes.
-struct Convergence {
-  std::string what;
-  std::vector<double> number;
-  std::vector<std::vector<double>> error;  ///< per mode
 };
 
 const std::vector<std::string> end_names{"clamped", "free", "pinned", "sliding"};
@@ -69,62 +48,6 @@ std::vector<Ends> cases_of(const Options& options) {
   if (dash == std::string::npos)
     throw InputError({"--bc"}, fmt::format("'{}' does not name two ends", options.bc), "Write e.g. clamped-free");
   return {{end_of(options.bc.substr(0, dash)), end_of(options.bc.substr(dash + 1))}};
-}
-
-double reference(const Ends& ends, int mode) {
-  const double root = titop::beam_roots(ends.P, ends.C, mode).back();
-  return root * root;
-}
-
-Study study(const std::vector<Ends>& cases, const Options& options) {
-  const std::vector<std::pair<std::string, BeamBasis>> bases{
-      {"G_pol", {Kind::polynomial}},
-      {fmt::format("CB 2+{}", options.modes), {Kind::craig_bampton, options.modes, options.elements}},
-      {fmt::format("CB+IR 4+{}", options.modes),
-       {Kind::craig_bampton_inertia_relief, options.modes, options.elements}}};
-  Study result;
-  for (const Ends& ends : cases)
-    for (const int mode : {1, 2}) result.entries.push_back({ends, mode, reference(ends, mode), {}});
-  for (const auto& [name, basis] : bases) {
-    result.names.push_back(name);
-    const auto omega = titop::beam_frequencies(basis, cases, 2);
-    for (std::size_t k = 0; k < result.entries.size(); ++k) {
-      const auto& found = omega[k / 2];
-      const Eigen::Index mode = result.entries[k].mode - 1;
-      result.entries[k].values.push_back(found && mode < found->size() ? std::optional((*found)[mode]) : std::nullopt);
-    }
-  }
-  return result;
-}
-
-/// Clamped-free modes seen from the other end, the inverse of G_f,n in table 1.
-std::vector<std::pair<int, Eigen::VectorXd>> inverse_of_clamped_free() {
-  std::vector<std::pair<int, Eigen::VectorXd>> all;
-  for (const int n : {4, 8, 16, 64})
-    all.emplace_back(n, titop::beam_frequencies({Kind::clamped_free, n}, {{End::free, End::clamped}}, 2)[0].value());
-  return all;
-}
-
-Convergence convergence(const Ends& ends, bool by_elements, const Options& options) {
-  Convergence c{by_elements ? "elements" : "kept modes", {}, {{}, {}, {}}};
-  const int most = by_elements ? std::max(options.elements, 4) : std::max(options.modes, 2);
-  std::vector<int> numbers;
-  if (by_elements)
-    for (int n = 2; n <= 2 * most && n <= 512; n *= 2) numbers.push_back(n);
-  else
-    for (int n = 1; n <= most + 6; ++n) numbers.push_back(n);
-  for (const int n : numbers) {
-    const BeamBasis basis = by_elements ? BeamBasis{Kind::craig_bampton_inertia_relief, std::min(2 * n - 2, 16), n}
-                                        : BeamBasis{Kind::craig_bampton_inertia_relief, n, 128};
-    const auto omega = titop::beam_frequencies(basis, {ends}, 3)[0];
-    if (!omega) continue;
-    c.number.push_back(n);
-    for (Eigen::Index m = 0; m < 3; ++m)
-      c.error[static_cast<std::size_t>(m)].push_back(
-          m < omega->size() ? std::abs((*omega)[m] / reference(ends, static_cast<int>(m) + 1) - 1.0)
-                            : std::numeric_limits<double>::quiet_NaN());
-  }
-  return c;
 }
 
 std::vector<double> sizes_of(const std::string& text, std::size_t colon, std::size_t count) {
@@ -182,56 +105,56 @@ double unit_of(const Options& options) {
   name.place = {"--material"};
   const fem::Material material = assembly::Materials(nullptr, {}).read(name);
   const auto [A, I] = section_of(options.section);
-  return std::sqrt(material.E * I / (material.rho * A)) / (options.length * options.length);
+  return titop::bending_unit(material.E, I, material.rho, A, options.length);
 }
 
-std::string percent(const std::optional<double>& value, double reference) {
-  return value ? fmt::format("{:.2g}", 100.0 * (*value / reference - 1.0)) : "refused";
+std::string percent(const std::optional<double>& omega, const BeamStudyEntry& e) {
+  return omega ? fmt::format("{:.2g}", 100.0 * titop::frequency_error(*omega, e.ends, e.mode)) : "refused";
 }
 
-Json to_json(const Study& s, const std::vector<Convergence>& curves, double unit) {
-  Json object{{"unit_rad_s", unit}, {"bases", s.names}, {"cases", Json::array()}};
-  for (const Entry& e : s.entries) {
+Json to_json(const BeamStudy& s, const std::vector<BeamConvergence>& curves, double unit) {
+  Json object{{"unit_rad_s", unit}, {"bases", s.bases}, {"cases", Json::array()}};
+  for (const BeamStudyEntry& e : s.entries) {
     Json values = Json::array();
-    for (const auto& value : e.values) values.push_back(value ? Json(hertz(unit * *value)) : Json());
+    for (const auto& value : e.omega) values.push_back(value ? Json(hertz(unit * *value)) : Json());
     object["cases"].push_back({{"ends", titop::name(e.ends.P) + "-" + titop::name(e.ends.C)},
                                {"mode", e.mode},
-                               {"reference_hz", hertz(unit * e.reference)},
+                               {"reference_hz", hertz(unit * e.exact)},
                                {"frequencies_hz", values}});
   }
-  for (const auto& [n, omega] : inverse_of_clamped_free())
+  for (const auto& [n, omega] : titop::inverse_of_clamped_free())
     object["inverse_of_clamped_free_modes"].push_back({{"modes", n}, {"omega_normalised", {omega[0], omega[1]}}});
-  for (const Convergence& c : curves)
-    object["convergence"].push_back({{"against", c.what}, {"number", c.number}, {"relative_error_per_mode", c.error}});
+  for (const BeamConvergence& c : curves)
+    object["convergence"].push_back(
+        {{"against", c.against}, {"number", c.number}, {"relative_error_per_mode", c.error}});
   return object;
 }
 
-report::Plot picture(const std::vector<Convergence>& curves, const Ends& ends) {
+report::Plot picture(const std::vector<BeamConvergence>& curves, const Ends& ends) {
   report::Plot plot{
       .title = fmt::format("Beam {}-{}: error of the lowest modes", titop::name(ends.P), titop::name(ends.C)),
       .x_label = "finite elements, or modes kept beside constraint and inertia-relief shapes",
       .y_label = "relative error of the frequency",
       .curves = {}};
-  for (const Convergence& c : curves)
+  for (const BeamConvergence& c : curves)
     for (std::size_t m = 0; m < c.error.size(); ++m)
-      plot.curves.push_back({fmt::format("mode {}, {}", m + 1, c.what), c.number, c.error[m]});
+      plot.curves.push_back({fmt::format("mode {}, {}", m + 1, c.against), c.number, c.error[m]});
   return plot;
 }
 
-void print_people(const Study& s, const std::vector<Convergence>& curves, double unit, const Options& options) {
+void print_people(const BeamStudy& s, const std::vector<BeamConvergence>& curves, double unit, const Options& options) {
   const bool own = unit != 1.0;
   print(own ? fmt::format("Bending in one plane: 1 = {:.6g} Hz (Euler-Bernoulli; shear and rotary inertia neglected)",
                           hertz(unit))
             : std::string("Bending of a uniform Euler-Bernoulli beam, frequencies in units of √(EI/ρSl⁴)"));
-  std::vector<std::string> heads{"<case", "mode", own ? "exact [Hz]" : "exact", s.names[0], "error [%]"};
-  for (std::size_t b = 1; b < s.names.size(); ++b) heads.push_back(s.names[b] + " [%]");
+  std::vector<std::string> heads{"<case", "mode", own ? "exact [Hz]" : "exact", s.bases[0], "error [%]"};
+  for (std::size_t b = 1; b < s.bases.size(); ++b) heads.push_back(s.bases[b] + " [%]");
   Table table(heads);
-  for (const Entry& e : s.entries) {
+  for (const BeamStudyEntry& e : s.entries) {
     const auto text = [&](double omega) { return fmt::format("{:.6g}", own ? hertz(unit * omega) : omega); };
     std::vector<std::string> row{titop::name(e.ends.P) + "-" + titop::name(e.ends.C), std::to_string(e.mode),
-                                 text(e.reference), e.values[0] ? text(*e.values[0]) : "refused",
-                                 percent(e.values[0], e.reference)};
-    for (std::size_t b = 1; b < s.names.size(); ++b) row.push_back(percent(e.values[b], e.reference));
+                                 text(e.exact), e.omega[0] ? text(*e.omega[0]) : "refused", percent(e.omega[0], e)};
+    for (std::size_t b = 1; b < s.bases.size(); ++b) row.push_back(percent(e.omega[b], e));
     table.row(std::move(row));
   }
   print(table);
@@ -240,18 +163,18 @@ void print_people(const Study& s, const std::vector<Convergence>& curves, double
       "elements reduced to constraint shapes, {} fixed-interface modes and, with IR, inertia-relief shapes.",
       options.elements, options.modes)));
   if (!options.bc.empty()) {
-    for (const Convergence& c : curves) {
-      Table numbers({c.what, "mode 1", "mode 2", "mode 3"});
+    for (const BeamConvergence& c : curves) {
+      Table numbers({c.against, "mode 1", "mode 2", "mode 3"});
       for (std::size_t k = 0; k < c.number.size(); ++k)
         numbers.row({fmt::format("{}", c.number[k]), fmt::format("{:.1e}", c.error[0][k]),
                      fmt::format("{:.1e}", c.error[1][k]), fmt::format("{:.1e}", c.error[2][k])});
-      print(fmt::format("\n  Error against the number of {}", c.what));
+      print(fmt::format("\n  Error against the number of {}", c.against));
       print(numbers);
     }
     return;
   }
   Table inverse({"clamped-free modes", "free-clamped 1", "free-clamped 2"});
-  for (const auto& [n, omega] : inverse_of_clamped_free())
+  for (const auto& [n, omega] : titop::inverse_of_clamped_free())
     inverse.row({std::to_string(n), fmt::format("{:.5f}", omega[0]), fmt::format("{:.4f}", omega[1])});
   print("\n  Inverse of the model of n clamped-free modes, table 1 (exact: 3.51602, 22.0345)");
   print(inverse);
@@ -263,11 +186,12 @@ void print_people(const Study& s, const std::vector<Convergence>& curves, double
 int run(const Options& options) {
   const double unit = unit_of(options);
   const std::vector<Ends> cases = cases_of(options);
-  const Study s = study(cases, options);
-  std::vector<Convergence> curves;
+  const BeamStudy s = titop::beam_study(cases, options.modes, options.elements);
+  std::vector<BeamConvergence> curves;
   const Ends shown = cases.front();
   if (!options.bc.empty() || !options.svg.empty() || options.json)
-    curves = {convergence(shown, true, options), convergence(shown, false, options)};
+    curves = {titop::convergence_with_elements(shown, options.elements),
+              titop::convergence_with_modes(shown, options.modes)};
   if (!options.svg.empty()) report::write_svg(options.svg, picture(curves, shown));
   if (options.json) {
     print(to_json(s, curves, unit));

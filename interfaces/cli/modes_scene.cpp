@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "assembly/build.hpp"
-#include "assembly/full_model.hpp"
 #include "assembly/second_order.hpp"
 #include "fem/error.hpp"
+#include "fem/structure.hpp"
 #include "interfaces/cli/modes.hpp"
 #include "interfaces/report/mode_pictures.hpp"
 
@@ -25,18 +25,7 @@ struct Full {
 /// Ritz values lie above the exact ones index by index (Courant-Fischer), so order alone pairs the two lists.
 Full compare(const assembly::Scene& scene, const assembly::Network& network, const assembly::SystemModes& modes,
              const ModesCommand& command, int shown, const reduction::Progress& progress) {
-  std::vector<fem::Model> models(scene.bodies.size());
-  std::vector<const fem::Model*> pointers(scene.bodies.size(), nullptr);
-  for (std::size_t k = 0; k < scene.bodies.size(); ++k)
-    if (scene.bodies[k].has_model()) {
-      if (const auto* beam = std::get_if<assembly::BeamSource>(&scene.bodies[k].source); beam && beam->planar)
-        throw InputError(scene.bodies[k].place,
-                         "a beam that moves in one plane alone has no full model to compare with",
-                         "Leave `plane` out, or --full");
-      models[k] = assembly::build_model(scene.bodies[k]);
-      pointers[k] = &models[k];
-    }
-  const fem::Structure structure = fem::assemble(assembly::full_model(network, pointers).model);
+  const fem::Structure structure = fem::assemble(assembly::full_model(scene, network).model);
   const reduction::Modes exact = solve(structure, command, shown, progress);
 
   Full full;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "fem/formats/atomic_file.hpp"
+#include "interfaces/report/svg.hpp"
 
 namespace tenon::report {
 namespace {
@@ -54,7 +55,7 @@ void write_motion_svg(const std::filesystem::path& path, const MotionPicture& pi
       "font-family=\"Helvetica, Arial, sans-serif\" font-size=\"13\" fill=\"#222\">\n"
       "<rect width=\"{0}\" height=\"{1}\" fill=\"white\"/>\n"
       "<text x=\"{2}\" y=\"30\" font-size=\"17\" font-weight=\"bold\">{3}</text>\n",
-      width, height, margin, picture.title);
+      width, height, margin, escaped(picture.title));
   View view = view_of(picture.bodies);
   for (int mode = 0; mode < modes; ++mode) {
     view.left = (mode % across) * panel;
@@ -76,7 +77,7 @@ void write_motion_svg(const std::filesystem::path& path, const MotionPicture& pi
         svg += fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"3.4\" fill=\"white\" stroke=\"#666\"/>\n",
                            view.px(end.x()), view.py(end.y()));
     svg += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n", view.left + panel / 2,
-                       view.top + panel + 12, picture.captions[static_cast<std::size_t>(mode)]);
+                       view.top + panel + 12, escaped(picture.captions[static_cast<std::size_t>(mode)]));
   }
   fem::AtomicFile file(path);
   file.stream() << svg << "</svg>\n";

@@ -53,21 +53,6 @@ Axis axis_of(const std::vector<Curve>& curves, std::vector<double> Curve::*value
   return {low, high, from, to, log};
 }
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '&')
-      out += "&amp;";
-    else
-      out += c;
-  }
-  return out;
-}
-
 /// 0.001, 1, 100, or 10 with an exponent where that is shorter.
 std::string decade(int exponent) {
   if (exponent >= -2 && exponent <= 3) return fmt::format("{:g}", std::pow(10.0, exponent));
@@ -140,6 +125,21 @@ std::string polyline(const Curve& curve, const Axis& x, const Axis& y, const cha
 }
 
 }  // namespace
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else if (c == '&')
+      out += "&amp;";
+    else
+      out += c;
+  }
+  return out;
+}
 
 std::string to_svg(const Plot& plot) {
   const Axis x = axis_of(plot.curves, &Curve::x, plot.log_x, false, left, width - right);

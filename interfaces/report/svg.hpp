@@ -22,6 +22,9 @@ struct Plot {
 /// The picture as SVG text: decades or round steps as grid lines, a legend when there are several curves.
 std::string to_svg(const Plot& plot);
 
+/// Text as it may stand in SVG: <, > and & as entities.
+std::string escaped(const std::string& text);
+
 /// Writes it whole or not at all. Throws InputError when the file cannot be written.
 void write_svg(const std::filesystem::path& path, const Plot& plot);
 

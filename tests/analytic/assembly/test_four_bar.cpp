@@ -102,6 +102,23 @@ TEST(FourBar, PortAlgebraClosesTheLoop) {
   EXPECT_LT(transfer, 1e-8);
 }
 
+// Grounded, the rows across the plane are zero-padding, and the loop closes as above. Afloat, all links move across it
+// together: these rows are redundant, their reactions indeterminate.
+TEST(FourBar, AfloatItsRowsAcrossThePlaneAreRedundant) {
+  Network network = four_bar(BeamSource::Model::polynomial);
+  network.ground.clear();
+  const SecondOrderSystem second = second_order(network);
+  EXPECT_EQ(second.redundant, 3);
+  EXPECT_EQ(second.rigid, 7);
+  try {
+    port_algebra(network);
+    FAIL() << "closed a loop with redundant rows";
+  } catch (const NumericalError& fault) {
+    for (const char* word : {"'joint 'b', translation z'", "second rotation across the axis", "second-order route"})
+      EXPECT_NE(std::string(fault.what()).find(word), std::string::npos) << fault.what();
+  }
+}
+
 // Held in a plane, a beam of finite elements keeps the mass and all inertias of its section: ρ(Iy + Iz) l about itself.
 TEST(FourBar, PlanarBeamsKeepTheirMassMatrix) {
   const ReducedBody& crank = four_bar(BeamSource::Model::fe).bodies[1];

@@ -31,9 +31,11 @@ TEST(Reactions, StaticsOfACantilever) {
   const Reactions r = reactions(net, second_order(net), 0.0);
   EXPECT_NEAR(of(r, "joint 'middle', translation y"), -1.0, 1e-12);
   EXPECT_NEAR(of(r, "joint 'middle', rotation z"), -1.0, 1e-12);  // arm 1 m
-  EXPECT_NEAR(of(r, "ground of inner.p, row 2"), -1.0, 1e-12);
-  EXPECT_NEAR(of(r, "ground of inner.p, row 6"), -2.0, 1e-12);  // arm 2 m
+  EXPECT_NEAR(of(r, "ground of inner.p, translation y"), -1.0, 1e-12);
+  EXPECT_NEAR(of(r, "ground of inner.p, rotation z"), -2.0, 1e-12);  // arm 2 m
   EXPECT_THAT(r.determinate, ::testing::Each(true));
+  EXPECT_EQ(r.units,
+            (std::vector<std::string>{"N", "N", "N", "N m", "N m", "N m", "N", "N", "N", "N m", "N m", "N m"}));
 }
 
 // A free chain pushed at one end through its centre: each joint passes the force of the mass beyond it.

@@ -59,6 +59,28 @@ TEST(TipMass, OverTwentyFourDecades) {
   }
 }
 
+// A heavy mass at P, the body hung by C: the mirror image of the same mass at C, whose modes attach_mass() finds by
+// another decomposition; √(3 EI/(m l³)) with the beam's share 33/140.
+TEST(TipMass, HeavyParentEndKeepsItsDigitsWhenHungByTheOther) {
+  double worst = 0.0;
+  for (double ratio = 1e-4; ratio < 2e12; ratio *= 1e2) {
+    const reduction::ReducedBody heavy = attach_mass(unit_beam(BeamModel::polynomial), 0, ratio, {0.0, 0.0, 0.0});
+    const reduction::ReducedBody hung = reduction::rebase(heavy, 1), mirror = loaded(BeamModel::polynomial, 0, ratio);
+    ASSERT_EQ(hung.n(), mirror.n());
+    worst = std::max(worst, (hung.omega.array() / mirror.omega.array() - 1.0).abs().maxCoeff());
+    if (ratio > 1e3) {
+      EXPECT_NEAR(hung.omega[0] / std::sqrt(3.0 / (ratio + 33.0 / 140.0)), 1.0, 1e-6) << ratio;
+    }
+    // what a wrench does to P statically: l³/3EI
+    const double sag = hung.ports[0].Phi.row(1) * hung.omega.cwiseAbs2().cwiseInverse().asDiagonal() *
+                       hung.ports[0].Phi.row(1).transpose();
+    EXPECT_NEAR(sag, 1.0 / 3.0, 1e-9) << ratio;
+    EXPECT_NO_THROW(reduction::check(hung)) << ratio;
+  }
+  fmt::print("hung by the other end under 1e-4 .. 1e12 of its mass: frequencies {:.1e} from the mirror image\n", worst);
+  EXPECT_LT(worst, 1e-9);  // ε √ratio
+}
+
 // Seen from a released parent port a heavy load leaves the beam the last digits of the sum: right to 1e-6, or refused.
 // Free at P, the load a pin at C: 15.4450956844 is the quintic basis in 50 digits, 0.07/ratio below a finite load.
 TEST(TipMass, HeavyLoadIsRightOrRefusedAtAFreeParentPort) {

@@ -5,12 +5,14 @@
 #include "assembly/port_algebra.hpp"
 #include "assembly/recursion/linearise.hpp"
 #include "assembly/second_order.hpp"
+#include "kinematic_map.hpp"
 #include "random_network.hpp"
 
 using namespace tenon::assembly;
 using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+using tenon::assembly::testing::kinematic_map;
 using tenon::assembly::testing::RandomNetwork;
 using tenon::assembly::testing::undamped;
 
@@ -53,25 +55,6 @@ double difference(const MatrixXcd& a, const MatrixXcd& b) {
 struct Worst {
   double frequency = 0.0, response = 0.0, state_space = 0.0, mass = 0.0, stiffness = 0.0, condition = 1.0;
 };
-
-// q = J χ from the speeds of the tree to the coordinates of the second-order assembly, speed by speed
-MatrixXd kinematic_map(const NetworkMultibody& tree, const SecondOrderSystem& second) {
-  Sweeps sweeps = make_sweeps(tree.system);
-  const MotionState rest = rest_state(tree.system);
-  MatrixXd J = MatrixXd::Zero(second.G.cols(), tree.system.nv);
-  for (int j = 0; j < tree.system.nv; ++j) {
-    const VectorXd unit = VectorXd::Unit(tree.system.nv, j);
-    set_state(tree.system, rest.q, unit, sweeps);
-    for (std::size_t k = 0; k < tree.body.size(); ++k) {
-      const auto b = static_cast<std::size_t>(tree.body[k]);
-      const BodySweep& s = sweeps.bodies[b];
-      const int n = tree.system.bodies[b].modes();
-      J.col(j).segment<6>(second.offset[k]) << s.world.R * s.V.head<3>(), s.world.R * s.V.tail<3>();
-      J.col(j).segment(second.offset[k] + 6, n) = unit.segment(tree.system.v_offset[b], n);
-    }
-  }
-  return J;
-}
 
 void compare(const Network& net, Worst& worst) {
   const SecondOrderSystem second = second_order(net);

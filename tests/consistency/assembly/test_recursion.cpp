@@ -164,7 +164,8 @@ TEST(Recursion, TwistsAndAccelerationsAreRatesOfThePoses) {
 }
 
 // With the integrals of the shapes the equations are those of one kinetic energy: without dampers energy stays, and
-// momentum without ground. Central differences along the motion err by h² of the third derivative (up to 35 of the power).
+// momentum without ground. Central differences along the motion err by h² of the third derivative (up to 35 of the
+// power).
 TEST(Recursion, MotionKeepsEnergyAndMomentum) {
   const double h = 1e-5;
   double worst_energy = 0.0, worst_momentum = 0.0;

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "assembly/build.hpp"
+#include "assembly/same_body.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace tenon::assembly {
@@ -156,6 +157,55 @@ TEST_F(BuildModel, RefusesCellsWithTwoSections) {
   folder_.write("panel.msh", text);
   EXPECT_THAT(fault("yoke: {circle: 50}", "yoke: {circle: 50}, patch: {shell: 1}"),
               HasSubstr("sections 'skin' and 'patch' both name cell"));
+}
+
+// Bodies that differ in nothing but the name are reduced once, and are the same numbers.
+TEST_F(BuildModel, ReducesEqualBodiesOnce) {
+  const auto build_scene = [&](const std::string& third) {
+    const Scene scene = read_scene(folder_.write(
+        "twins.yaml",
+        "units: SI\nbodies:\n"
+        "  east: {beam: &b {from: [0, 0, 0], to: [1, 0, 0], section: {circle: 0.01}, material: steel, elements: 8}}\n"
+        "  west: {beam: *b}\n  other: {beam: {<<: *b, " +
+            third + "}}\njoints:\n  j: {parent: east.C, child: west.P, weld: true}\n" +
+            "  k: {parent: west.C, child: other.P, weld: true}\n"));
+    int reductions = 0;
+    const Network network = build_network(
+        scene, plan(scene), [&](double, const char* step) { reductions += std::string(step) == "component modes"; });
+    return std::pair(network, reductions);
+  };
+  const auto [same, once] = build_scene("elements: 8");
+  EXPECT_EQ(build_scene("elements: 9").second, 2 * once);
+  ASSERT_GT(once, 0);
+  EXPECT_EQ(same.bodies[1].name, "west");
+  EXPECT_EQ(same.bodies[1].omega, same.bodies[0].omega);
+  EXPECT_EQ(same.bodies[1].L, same.bodies[0].L);
+  EXPECT_EQ(same.bodies[2].certificate.basis, same.bodies[0].certificate.basis);
+}
+
+// ... and everything that decides a body tells them apart.
+TEST_F(BuildModel, FingerprintsDifferWhereBodiesDo) {
+  const auto print_of = [&](const std::string& text) {
+    const Scene scene = read_scene(folder_.write("scene.yaml", text));
+    return fingerprint(scene.bodies[0], plan(scene).bodies[0]);
+  };
+  const std::string own = print_of(scene_text);
+  EXPECT_EQ(print_of(with("  panel:", "  other:")), own);
+  for (const auto& [from, to] : {std::pair("E: 70e3", "E: 71e3"),
+                                 {"rho: 2.7e-9", "rho: 2.8e-9"},
+                                 {"{shell: 20}", "{shell: 21}"},
+                                 {"{circle: 50}", "{circle: 51}"},
+                                 {"root: {set: root}", "foot: {set: root}"},
+                                 {"[3000, 500, 0]", "[3000, 501, 0]"},
+                                 {"kind: average", "kind: rigid"},
+                                 {"[x, rz]", "[x, ry]"},
+                                 {"mass: 0.001", "mass: 0.0011"},
+                                 {"node: 3", "node: 4"},
+                                 {"length: mm", "length: m"},
+                                 {"    fix:", "    damping: 0.01\n    fix:"},
+                                 {"    fix:", "    reduction: {modes: 7}\n    fix:"},
+                                 {"    fix:", "    reduction: rigid\n    fix:"}})
+    EXPECT_NE(print_of(with(from, to)), own) << to;
 }
 
 }  // namespace

@@ -50,7 +50,8 @@ TEST(Bases, MasslessRotations) {
   const double twist = data.length / (data.material.G * data.section.J);
   for (const Basis basis : with_statics) {
     if (basis == Basis::rubin) {
-      EXPECT_THAT(refusal([&] { reduce(s, "root", {.basis = basis}); }), HasSubstr("carries no mass"));
+      EXPECT_THAT(refusal([&] { reduce(s, "root", {.basis = basis}); }),
+                  testing::AllOf(HasSubstr("carries no mass"), HasSubstr("Take craig-bampton-inertia-relief")));
       continue;
     }
     const ReducedBody body = reduce(s, "root", {.basis = basis, .modes = 6});

@@ -1,0 +1,78 @@
+#include "assembly/same_body.hpp"
+
+#include <fmt/format.h>
+
+#include <type_traits>
+
+namespace tenon::assembly {
+namespace {
+
+/// Writes values one after the other, numbers with all their bits.
+class Text {
+ public:
+  template <class... Values>
+  Text& operator()(const Values&... values) {
+    (add(values), ...);
+    return *this;
+  }
+  std::string text;
+
+ private:
+  template <class Number>
+  requires std::is_arithmetic_v<Number> || std::is_enum_v<Number>
+  void add(Number value) {
+    if constexpr (std::is_enum_v<Number>)
+      text += fmt::format("{};", static_cast<int>(value));
+    else if constexpr (std::is_floating_point_v<Number>)
+      text += fmt::format("{:a};", value);
+    else
+      text += fmt::format("{};", value);
+  }
+  void add(const std::string& word) { text += fmt::format("{}:{};", word.size(), word); }
+  void add(const std::filesystem::path& path) { add(path.lexically_normal().string()); }
+  void add(const Vec3& v) { (*this)(v.x(), v.y(), v.z()); }
+  void add(const Mat3& m) { (*this)(Vec3(m.col(0)), Vec3(m.col(1)), Vec3(m.col(2))); }
+  template <class Value>
+  void add(const std::optional<Value>& value) {
+    (*this)(value.has_value());
+    if (value) (*this)(*value);
+  }
+  template <class Value>
+  void add(const std::vector<Value>& values) {
+    (*this)(values.size());
+    for (const Value& value : values) (*this)(value);
+  }
+
+  void add(const Units& u) { (*this)(u.length, u.mass, u.time); }
+  void add(const fem::Material& m) { (*this)(m.E, m.G, m.nu, m.rho); }
+  void add(const fem::BeamSection& s) { (*this)(s.A, s.Iy, s.Iz, s.Iyz, s.J, s.kappa_y, s.kappa_z, s.nsm); }
+  void add(const fem::ShellSection& s) { (*this)(s.thickness, s.nsm, s.bending_ratio, s.shear_ratio); }
+  void add(const NodeSelector& n) { (*this)(n.kind, n.point, n.centre, n.node, n.name); }
+  void add(const ScenePort& p) { (*this)(p.name, p.where, p.average, p.axes); }
+  void add(const SceneSection& s) {
+    (*this)(s.set, s.shape.index(), s.material, s.orientation, s.rotary_inertia, s.offset);
+    std::visit([this](const auto& shape) { (*this)(shape); }, s.shape);
+  }
+  void add(const SceneSupport& s) { (*this)(s.set, s.directions); }
+  void add(const SceneNodeMass& m) { (*this)(m.where, m.mass, m.inertia, m.offset); }
+  void add(const FeSource& fe) {
+    (*this)(fe.file, fe.units, fe.sections, fe.supports, fe.masses, fe.beam_mass, fe.ignore, fe.allow);
+  }
+  void add(const ReducedSource& reduced) { (*this)(reduced.file); }
+  void add(const BeamSource& b) { (*this)(b.model, b.from, b.to, b.section, b.elements, b.modes, b.planar); }
+  void add(const RigidSource&) {}
+  void add(const reduction::ReduceOptions& o) { (*this)(o.basis, o.modes, o.band, o.all_modes, o.zeta, o.keep_shapes); }
+};
+
+}  // namespace
+
+std::string fingerprint(const SceneBody& body, const BodyPlan& plan) {
+  if (std::holds_alternative<RigidSource>(body.source)) return {};
+  Text text;
+  text(body.source.index());
+  std::visit([&](const auto& source) { text(source); }, body.source);
+  text(body.ports, body.parent_port, body.damping, plan.rigid, plan.options);
+  return text.text;
+}
+
+}  // namespace tenon::assembly
