@@ -67,8 +67,7 @@ void factor_interior(const fem::Structure& structure, const Partition& parts, Sh
         fmt::format("{} can move without strain while all ports are held",
                     dof < structure.dofs.names.size() ? structure.dofs.names[dof] : fmt::format("row {}", dof)),
         "Look there for a hinge, a node without rotational stiffness, a part that hangs by a thread, or one so stiff "
-        "that "
-        "the rest is lost in its rounding");
+        "that the rest is lost in its rounding");
   }
 }
 

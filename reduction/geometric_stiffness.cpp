@@ -72,7 +72,8 @@ GeometricStiffness geometric_stiffness(const fem::Model& model, const fem::Struc
           row >= 0 && p != body.parent)
         F(row, inertia + 6 * p + d) = 1.0;
 
-  const ShiftedFactor held = factor_interior(structure, parts);
+  ShiftedFactor held = order_interior(structure, parts);
+  factor_interior(structure, parts, held);
   Eigen::MatrixXd U = Eigen::MatrixXd::Zero(F.rows(), F.cols());
   U(parts.interior, Eigen::all) = held.factor.solve(F(parts.interior, Eigen::all));
   Eigen::MatrixXd Pi(structure.n(), n + 3);

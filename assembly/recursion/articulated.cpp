@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "assembly/recursion/mode_kernels.hpp"
+#include "assembly/recursion/sweep_kernels.hpp"
 #include "assembly/recursion/sweeps.hpp"
 #include "fem/error.hpp"
 
@@ -52,8 +52,8 @@ void take_out_modes(const HingedBody& b, const ImplicitTerms& implicit, BodySwee
   }
   Eigen::Matrix<double, 8, 6> P = Eigen::Matrix<double, 8, 6>::Zero();
   P.topRows<6>() = s.P_rr;
-  const int failed = mode_kernels().eliminate_modes(static_cast<int>(n), least_pivot, s.L11.data(), s.inverse.data(),
-                                                    s.L21.data(), P.data());
+  const int failed = sweep_kernels().eliminate_modes(static_cast<int>(n), least_pivot, s.L11.data(), s.inverse.data(),
+                                                     s.L21.data(), P.data());
   if (failed >= 0) no_inertia(b, fmt::format("mode {}", failed + 1));
   s.P_R = P.topRows<6>();
 }
@@ -61,20 +61,20 @@ void take_out_modes(const HingedBody& b, const ImplicitTerms& implicit, BodySwee
 // The hinge of body k: D_R, G_R, P_R⁺ of eq (63); D_R is left as its Cholesky factor.
 void take_out_hinge(const HingedBody& b, const ImplicitTerms& implicit, BodySweep& s) {
   const Index r = s.H_F.cols();
-  s.P_plus = s.P_R;
-  if (r == 0) return;
-  if (r == 1) {
-    const Vec6 h = s.H_F.col(0), U = s.P_R * h;
-    const double bare = h.dot(U);
-    const double D = bare + b.inertia[0] + implicit.damping * b.damping[0] + implicit.stiffness * b.stiffness[0];
-    if (!(D > least_pivot * h.cwiseAbs2().dot(s.P_rr.diagonal().cwiseAbs())))
-      no_inertia(b, fmt::format("the degree of freedom of the {} hinge", name(b.kind)));
-    const Vec6 G = U / D;
-    s.D_R(0, 0) = std::sqrt(D);
-    s.G_R.col(0) = G;
-    for (int j = 0; j < 6; ++j) s.P_plus.col(j) -= G[j] * U;
+  if (r == 0) {
+    s.P_plus = s.P_R;
     return;
   }
+  if (r == 1) {
+    const double extra = b.inertia[0] + implicit.damping * b.damping[0] + implicit.stiffness * b.stiffness[0];
+    const Vec6 h = s.H_F.col(0);
+    const double D = sweep_kernels().take_out_axis(s.P_R.data(), h.data(), extra, s.G_R.data(), s.P_plus.data());
+    if (!(D > least_pivot * h.cwiseAbs2().dot(s.P_rr.diagonal().cwiseAbs())))
+      no_inertia(b, fmt::format("the degree of freedom of the {} hinge", name(b.kind)));
+    s.D_R(0, 0) = std::sqrt(D);
+    return;
+  }
+  s.P_plus = s.P_R;
   HingeMap U(6, r);
   for (Index j = 0; j < r; ++j) U.col(j).noalias() = s.P_R * s.H_F.col(j);
   for (Index j = 0; j < r; ++j) {
@@ -111,10 +111,6 @@ void take_out_hinge(const HingedBody& b, const ImplicitTerms& implicit, BodySwee
 // ν ← D_R⁻¹ ν
 void solve_hinge(const BodySweep& s, VectorXd& nu) {
   const Index r = nu.size();
-  if (r == 1) {
-    nu[0] /= s.D_R(0, 0) * s.D_R(0, 0);
-    return;
-  }
   for (Index j = 0; j < r; ++j) {
     for (Index k = 0; k < j; ++k) nu[j] -= s.D_R(j, k) * nu[k];
     nu[j] /= s.D_R(j, j);
@@ -129,15 +125,16 @@ void solve_hinge(const BodySweep& s, VectorXd& nu) {
 void add_to_parent(const BodySweep& child, BodySweep& parent) {
   const auto n = static_cast<int>(child.Pi_t.cols());
   if (n == 0) {
-    parent.P_rr += RigidMotion{child.X.R, child.to_node + child.X.r}.inertia(child.P_plus);
+    const Vec3 r = child.to_node + child.X.r;
+    sweep_kernels().carry_inertia(child.P_plus.data(), child.X.R.data(), r.data(), parent.P_rr.data());
     return;
   }
   const Mat6 Gamma = child.X.inertia(child.P_plus);  // about node t, in the parent's axes
   parent.P_rr += shift_inertia(Gamma, child.to_node);
   Eigen::Matrix<double, 8, 6> padded_Gamma = Eigen::Matrix<double, 8, 6>::Zero();
   padded_Gamma.topRows<6>() = Gamma;
-  mode_kernels().add_child_modes(n, padded_Gamma.data(), child.Pi_t8.data(), child.Pi_tT.data(), child.to_node.data(),
-                                 parent.L11.data(), parent.P_rf.data());
+  sweep_kernels().add_child_modes(n, padded_Gamma.data(), child.Pi_t8.data(), child.Pi_tT.data(), child.to_node.data(),
+                                  parent.L11.data(), parent.P_rf.data());
 }
 
 }  // namespace
@@ -165,6 +162,8 @@ namespace {
 // Eq (64); without motion: no a_m, no b_m, base at rest.
 template <bool Motion>
 void sweep(const Multibody& system, Sweeps& sweeps, const VectorXd& T, VectorXd& v_dot) {
+  const SweepKernels& kernels = sweep_kernels();
+  const Vec6 still = Vec6::Zero();
   const auto count = static_cast<int>(system.bodies.size());
   for (BodySweep& s : sweeps.bodies) {
     const Index n = s.L11.cols();
@@ -185,21 +184,25 @@ void sweep(const Multibody& system, Sweeps& sweeps, const VectorXd& T, VectorXd&
       s.y.head(n) = T.segment(first, n) - s.z_f.head(n);  // ε_f
       for (Index i = 0; i < s.Pi_F.cols(); ++i) s.y[i] += s.Pi_F.col(i).dot(s.z_r);
       Eigen::Matrix<double, 8, 1> felt = Eigen::Matrix<double, 8, 1>::Zero();  // g ε_f
-      mode_kernels().lower_sweep(static_cast<int>(n), s.L11.data(), s.inverse.data(), s.L21.data(), s.y.data(),
-                                 felt.data());
+      kernels.lower_sweep(static_cast<int>(n), s.L11.data(), s.inverse.data(), s.L21.data(), s.y.data(), felt.data());
       z += felt.head<6>();
     }
-    if constexpr (Motion) z.noalias() += s.P_R * s.a;
-    for (Index j = 0; j < r; ++j) s.nu_R[j] = T[first + n + j] - s.H_F.col(j).dot(z);  // ε_R
-    for (Index j = 0; j < r; ++j) z += s.nu_R[j] * s.G_R.col(j);                       // z_R⁺
-    solve_hinge(s, s.nu_R);
+    if (r == 1) {
+      const double* a = Motion ? s.a.data() : still.data();
+      const double epsilon = kernels.hinge_sweep(s.P_R.data(), a, s.H_F.data(), s.G_R.data(), T[first + n], z.data());
+      s.nu_R[0] = epsilon / (s.D_R(0, 0) * s.D_R(0, 0));
+    } else {
+      if constexpr (Motion) z.noalias() += s.P_R * s.a;
+      for (Index j = 0; j < r; ++j) s.nu_R[j] = T[first + n + j] - s.H_F.col(j).dot(z);  // ε_R
+      for (Index j = 0; j < r; ++j) z += s.nu_R[j] * s.G_R.col(j);                       // z_R⁺
+      solve_hinge(s, s.nu_R);
+    }
     if (b.parent >= 0) {
       BodySweep& parent = sweeps.bodies[static_cast<std::size_t>(b.parent)];
       const Vec6 at_node = s.X.wrench(z);
       parent.z_r += shift_wrench(at_node, s.to_node);
       if (s.Pi_t.cols() > 0)
-        mode_kernels().add_mode_forces(static_cast<int>(s.Pi_t.cols()), s.Pi_tT.data(), at_node.data(),
-                                       parent.z_f.data());
+        kernels.add_mode_forces(static_cast<int>(s.Pi_t.cols()), s.Pi_tT.data(), at_node.data(), parent.z_f.data());
     }
   }
   Vec6 base = Vec6::Zero();
@@ -221,8 +224,7 @@ void sweep(const Multibody& system, Sweeps& sweeps, const VectorXd& T, VectorXd&
     if (n > 0) {
       Eigen::Matrix<double, 8, 1> alpha = Eigen::Matrix<double, 8, 1>::Zero();
       alpha.head<6>() = s.alpha;
-      mode_kernels().upper_sweep(static_cast<int>(n), s.L11.data(), s.inverse.data(), s.L21.data(), alpha.data(),
-                                 s.y.data());
+      kernels.upper_sweep(static_cast<int>(n), s.L11.data(), s.inverse.data(), s.L21.data(), alpha.data(), s.y.data());
       v_dot.segment(first, n) = s.y.head(n);
       for (Index i = 0; i < s.Pi_F.cols(); ++i) s.alpha -= s.y[i] * s.Pi_F.col(i);
     }

@@ -1,4 +1,4 @@
-#include "assembly/recursion/mode_kernels.hpp"
+#include "assembly/recursion/sweep_kernels.hpp"
 #include "assembly/recursion/sweeps.hpp"
 
 namespace tenon::assembly {

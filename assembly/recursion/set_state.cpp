@@ -1,6 +1,6 @@
-#include "assembly/recursion/mode_kernels.hpp"
 #include "assembly/recursion/port_motion.hpp"
 #include "assembly/recursion/stiffening.hpp"
+#include "assembly/recursion/sweep_kernels.hpp"
 #include "fem/rotation.hpp"
 #include "reduction/body_terms.hpp"
 

@@ -15,7 +15,7 @@ using fem::RigidMotion;
 using fem::Vec6;
 
 /// What the recursions know of one body k, in its own axes about its reference F_k unless said. Columns of six that
-/// meet the inner loops over modes are padded to eight, columns over modes to a multiple of eight (mode_kernels.hpp).
+/// meet the inner loops over modes are padded to eight, columns over modes to a multiple of eight (sweep_kernels.hpp).
 struct BodySweep {
   using Mat8X = Eigen::Matrix<double, 8, Eigen::Dynamic>;
 

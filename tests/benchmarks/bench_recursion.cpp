@@ -6,57 +6,14 @@
 #include <cmath>
 
 #include "assembly/recursion/sweeps.hpp"
+#include "chain.hpp"
 
 using namespace tenon;
 using assembly::Multibody;
+using bench::bent;
+using bench::chain;
 
 namespace {
-
-/// A link of length 1 m with modes of its own, hung by its reference, cantilever.
-std::shared_ptr<const reduction::ReducedBody> link(int modes) {
-  reduction::ReducedBody body = reduction::rigid_body(
-      "link", 2.0, fem::Vec3(0.5, 0.0, 0.0), 0.2 * fem::Mat3::Identity(),
-      {{"P", fem::Vec3::Zero(), fem::Mat3::Identity(), {}}, {"C", fem::Vec3::UnitX(), fem::Mat3::Identity(), {}}});
-  body.omega = Eigen::VectorXd::LinSpaced(modes, 10.0, 50.0);
-  body.zeta = Eigen::VectorXd::Constant(modes, 0.01);
-  body.L = Eigen::MatrixXd::NullaryExpr(modes, 6, [&](Eigen::Index i, Eigen::Index j) {
-    return 0.3 * std::cos(1.0 + 2.4 * static_cast<double>(i * 6 + j)) / std::sqrt(modes);
-  });
-  body.ports[0].Phi = fem::Mat6X::Zero(6, modes);
-  body.ports[1].Phi = fem::Mat6X::NullaryExpr(6, modes, [&](Eigen::Index i, Eigen::Index j) {
-    return 0.5 * std::sin(0.7 + 1.9 * static_cast<double>(i + 6 * j));
-  });
-  return std::make_shared<const reduction::ReducedBody>(body);
-}
-
-Multibody chain(int bodies, int modes) {
-  Multibody mb;
-  const auto body = link(modes);
-  mb.gravity = fem::Vec3(0.0, 0.0, -9.81);
-  for (int k = 0; k < bodies; ++k) {
-    assembly::HingedBody b;
-    b.name = "link";
-    b.body = body;
-    b.deformation = assembly::Deformation::dropped;
-    b.parent = k - 1;
-    b.inner_port = 1;
-    b.outer_port = 0;
-    b.kind = assembly::HingeKind::revolute;
-    if (k % 2 == 1) b.inner_axes = b.outer_axes = fem::Mat3(Eigen::AngleAxisd(1.0, fem::Vec3::UnitX()));
-    mb.bodies.push_back(b);
-  }
-  assembly::index(mb);
-  return mb;
-}
-
-assembly::MotionState bent(const Multibody& mb) {
-  assembly::MotionState s = rest_state(mb);
-  const Eigen::VectorXd delta =
-      Eigen::VectorXd::NullaryExpr(mb.nv, [](Eigen::Index i) { return 0.1 * std::sin(1.0 + static_cast<double>(i)); });
-  move(mb, delta, s.q);
-  s.v = -delta;
-  return s;
-}
 
 /// Multiplications and additions of one body by section 8.2 of the paper.
 double articulated_flops(double n) {

@@ -92,7 +92,7 @@ TEST(TreeScene, AllRoutesAgree) {
   const LinearMotion motion = linearise(tree.system, rest_state(tree.system), VectorXd::Zero(tree.system.nv));
   ASSERT_EQ(tree.system.nv, found.omega.size());
   const DisjointSystem parts = disjoint(net);
-  const MatrixXd J = testing::kinematic_map(tree, second_order(net)), M = J.transpose() * parts.M * J,
+  const MatrixXd J = tenon::assembly::testing::kinematic_map(tree, second_order(net)), M = J.transpose() * parts.M * J,
                  K = J.transpose() * parts.K * J;
   const double by_tree = std::max((motion.M - M).norm() / M.norm(), (motion.K - K).norm() / K.norm());
   fmt::print("two bodies on one child: port algebra {:.1e}, responses {:.1e}, composite matrices {:.1e} apart\n",

@@ -8,7 +8,7 @@ inline constexpr int pad = 8;
 /// Length of a column over n modes.
 constexpr int padded(int n) { return (n + pad - 1) / pad * pad; }
 
-struct ModeKernels {
+struct SweepKernels {
   /// P_ff += Π_tᵀ Γ Π_t (lower half), P_rf += φ Γ Π_t: a child's inertia onto its parent's n modes.
   /// @param Gamma  8×6, about node t  @param Pi  8×n  @param Pi_T  padded×6, its transpose  @param l  node t, 3
   /// @param P_ff  padded×n  @param P_rf  8×n
@@ -23,9 +23,18 @@ struct ModeKernels {
   void (*upper_sweep)(int n, const double* L, const double* inverse, const double* X, const double* alpha, double* y);
   /// z_f += Π_tᵀ f over n modes.
   void (*add_mode_forces)(int n, const double* Pi_T, const double* f, double* z_f);
+
+  /// P_to += X* P X: a symmetric inertia about the origin of frame F, in its axes, onto that about T, in T's (6×6
+  /// each).
+  /// @param R  3×3, F's axes in T's  @param r  F's origin from T, in T's axes
+  void (*carry_inertia)(const double* P, const double* R, const double* r, double* P_to);
+  /// h*P_R h + `extra` of one hinge axis; G = P_R h/D, P⁺ = P_R − G D G*.
+  double (*take_out_axis)(const double* P_R, const double* h, double extra, double* G, double* P_plus);
+  /// z_R += P_R a, ε = T − h·z_R, z_R⁺ = z_R + G ε. Returns ε.
+  double (*hinge_sweep)(const double* P_R, const double* a, const double* h, const double* G, double T, double* z);
 };
 
 /// The fastest this processor has (AVX-512, AVX2 with FMA, or plain).
-const ModeKernels& mode_kernels();
+const SweepKernels& sweep_kernels();
 
 }  // namespace tenon::assembly

@@ -1,0 +1,48 @@
+#include "assembly/recursion/sweep_kernels.hpp"
+
+#include <cmath>
+
+namespace tenon::assembly {
+
+namespace plain {
+#include "assembly/recursion/sweep_kernels.inc"
+}
+
+#if defined(__x86_64__)
+#pragma GCC push_options
+#pragma GCC target("avx2,fma")
+namespace avx2 {
+#include "assembly/recursion/sweep_kernels.inc"
+}
+#pragma GCC pop_options
+#pragma GCC push_options
+#pragma GCC target("avx512f,avx512vl,avx512dq,fma")
+namespace avx512 {
+#include "assembly/recursion/sweep_kernels.inc"
+}
+#pragma GCC pop_options
+#endif
+
+namespace {
+
+SweepKernels choose() {
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq"))
+    return {avx512::add_child_modes, avx512::eliminate_modes, avx512::lower_sweep,   avx512::upper_sweep,
+            avx512::add_mode_forces, avx512::carry_inertia,   avx512::take_out_axis, avx512::hinge_sweep};
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+    return {avx2::add_child_modes, avx2::eliminate_modes, avx2::lower_sweep,   avx2::upper_sweep,
+            avx2::add_mode_forces, avx2::carry_inertia,   avx2::take_out_axis, avx2::hinge_sweep};
+#endif
+  return {plain::add_child_modes, plain::eliminate_modes, plain::lower_sweep,   plain::upper_sweep,
+          plain::add_mode_forces, plain::carry_inertia,   plain::take_out_axis, plain::hinge_sweep};
+}
+
+}  // namespace
+
+const SweepKernels& sweep_kernels() {
+  static const SweepKernels kernels = choose();
+  return kernels;
+}
+
+}  // namespace tenon::assembly

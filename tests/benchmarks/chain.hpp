@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cmath>
+
+#include "assembly/recursion/multibody.hpp"
+
+namespace tenon::bench {
+
+inline constexpr double mass = 2.0, length = 1.0, inertia = 0.2, tilt = 1.0;
+
+/// A link of 1 m with modes of its own, cantilever, hung by its reference.
+inline std::shared_ptr<const reduction::ReducedBody> link(int modes) {
+  reduction::ReducedBody body =
+      reduction::rigid_body("link", mass, fem::Vec3(0.5 * length, 0.0, 0.0), inertia * fem::Mat3::Identity(),
+                            {{"P", fem::Vec3::Zero(), fem::Mat3::Identity(), {}},
+                             {"C", length * fem::Vec3::UnitX(), fem::Mat3::Identity(), {}}});
+  body.omega = Eigen::VectorXd::LinSpaced(modes, 10.0, 50.0);
+  body.zeta = Eigen::VectorXd::Constant(modes, 0.01);
+  body.L = Eigen::MatrixXd::NullaryExpr(modes, 6, [&](Eigen::Index i, Eigen::Index j) {
+    return 0.3 * std::cos(1.0 + 2.4 * static_cast<double>(i * 6 + j)) / std::sqrt(modes);
+  });
+  body.ports[0].Phi = fem::Mat6X::Zero(6, modes);
+  body.ports[1].Phi = fem::Mat6X::NullaryExpr(6, modes, [&](Eigen::Index i, Eigen::Index j) {
+    return 0.5 * std::sin(0.7 + 1.9 * static_cast<double>(i + 6 * j));
+  });
+  return std::make_shared<const reduction::ReducedBody>(body);
+}
+
+/// Links on revolute hinges; the axis of every second one is tilted about x.
+inline assembly::Multibody chain(int bodies, int modes) {
+  assembly::Multibody mb;
+  const auto body = link(modes);
+  mb.gravity = fem::Vec3(0.0, 0.0, -9.81);
+  for (int k = 0; k < bodies; ++k) {
+    assembly::HingedBody b;
+    b.name = "link";
+    b.body = body;
+    b.deformation = assembly::Deformation::dropped;
+    b.parent = k - 1;
+    b.inner_port = 1;
+    b.outer_port = 0;
+    b.kind = assembly::HingeKind::revolute;
+    if (k % 2 == 1) b.inner_axes = b.outer_axes = fem::Mat3(Eigen::AngleAxisd(tilt, fem::Vec3::UnitX()));
+    mb.bodies.push_back(b);
+  }
+  assembly::index(mb);
+  return mb;
+}
+
+inline double bend(Eigen::Index i) { return 0.1 * std::sin(1.0 + static_cast<double>(i)); }
+
+inline assembly::MotionState bent(const assembly::Multibody& mb) {
+  assembly::MotionState s = rest_state(mb);
+  const Eigen::VectorXd delta = Eigen::VectorXd::NullaryExpr(mb.nv, bend);
+  move(mb, delta, s.q);
+  s.v = -delta;
+  return s;
+}
+
+}  // namespace tenon::bench
