@@ -8,13 +8,23 @@ namespace {
 
 using fem::Vec6;
 
-// Σ_k A(first + ., k) x_k
-template <int Rows>
-Eigen::Matrix<double, Rows, 1> rows_times(const Eigen::MatrixXd& A, Eigen::Index first, const double* x) {
-  Eigen::Matrix<double, Rows, 1> y = Eigen::Matrix<double, Rows, 1>::Zero();
-  for (Eigen::Index k = 0; k < A.cols(); ++k) y += A.block<Rows, 1>(first, k) * x[k];
-  return y;
-}
+// One mode's sums over the others, in one pass: twelve independent chains of additions.
+struct ModeSums {
+  Vec6 J = Vec6::Zero();      // Σ_k J2_ik η_k
+  Vec3 C = Vec3::Zero();      // Σ_k c_ki η_k
+  Vec3 C_dot = Vec3::Zero();  // Σ_k c_ki η̇_k
+
+  ModeSums(const ShapeIntegrals& s, Eigen::Index i, const double* eta, const double* eta_dot) {
+    const Eigen::Index n = s.J1.cols();
+    const double *J2 = s.J2.data() + 6 * i, *C1 = s.C1.data() + 3 * i;
+    for (Eigen::Index k = 0; k < n; ++k, J2 += 6 * n, C1 += 3 * n) {
+      J += eta[k] * Eigen::Map<const Vec6>(J2);
+      const Eigen::Map<const Vec3> c(C1);
+      C += eta[k] * c;
+      C_dot += eta_dot[k] * c;
+    }
+  }
+};
 
 // s0 of D = [m −s̃0; s̃0 J0]
 Vec3 first_moment(const Mat6& D) { return {D(5, 1), D(3, 2), D(4, 0)}; }
@@ -49,7 +59,10 @@ void body_terms(const ReducedBody& body, const ShapeIntegrals* integrals, Nonlin
   assert(M.rows() == n + 6 && M.cols() == n + 6 && b.size() == n + 6);
   assert(n == 0 || integrals == nullptr || integrals->J1.cols() == n);
   const Vec3& w = omega;
-  M.topLeftCorner(n, n).setIdentity();
+  Vec6 ww;  // ωᵀ J ω = J · ww, J packed
+  ww << w.cwiseAbs2(), 2.0 * w.x() * w.y(), 2.0 * w.x() * w.z(), 2.0 * w.y() * w.z();
+  M.topLeftCorner(n, n).setZero();
+  M.diagonal().head(n).setOnes();
   M.topRightCorner(n, 6) = body.L.topRows(n);
   M.bottomRightCorner<6, 6>() = body.D;
 
@@ -59,16 +72,17 @@ void body_terms(const ReducedBody& body, const ShapeIntegrals* integrals, Nonlin
     Vec6 half = Vec6::Zero(), rate = Vec6::Zero();  // J − J0 and J̇
     Vec3 S_eta = Vec3::Zero();
     for (Eigen::Index i = 0; i < n; ++i) {
-      const Vec6 J_i = integrals->J1.col(i) + rows_times<6>(integrals->J2, 6 * i, eta);
+      const ModeSums sums(*integrals, i, eta, eta_dot);
+      const Vec6 J_i = integrals->J1.col(i) + sums.J;
       half += 0.5 * eta[i] * (integrals->J1.col(i) + J_i);
       rate += eta_dot[i] * J_i;
       const Vec3 S_i = body.L.row(i).head<3>();
-      const Vec3 C_i = body.L.row(i).tail<3>().transpose() + rows_times<3>(integrals->C1, 3 * i, eta);
+      const Vec3 C_i = body.L.row(i).tail<3>().transpose() + sums.C;
       S_eta += eta[i] * S_i;
       S_dot += eta_dot[i] * S_i;
       C_dot += eta_dot[i] * C_i;
       M.row(i).tail<3>() = C_i;
-      b[i] = -0.5 * w.dot(symmetric3(J_i) * w) + 2.0 * w.dot(rows_times<3>(integrals->C1, 3 * i, eta_dot));
+      b[i] = -0.5 * J_i.dot(ww) + 2.0 * w.dot(sums.C_dot);
     }
     s += S_eta;
     J += symmetric3(half);
@@ -77,8 +91,7 @@ void body_terms(const ReducedBody& body, const ShapeIntegrals* integrals, Nonlin
     M.block<3, 3>(n, n + 3) -= fem::skew(S_eta);
     M.bottomRightCorner<3, 3>() = J;
   } else {
-    for (Eigen::Index i = 0; i < n; ++i)
-      b[i] = integrals == nullptr ? 0.0 : -0.5 * w.dot(symmetric3(integrals->J1.col(i)) * w);
+    for (Eigen::Index i = 0; i < n; ++i) b[i] = integrals == nullptr ? 0.0 : -0.5 * integrals->J1.col(i).dot(ww);
   }
   M.bottomLeftCorner(6, n) = M.topRightCorner(n, 6).transpose();
 
