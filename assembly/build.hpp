@@ -17,8 +17,8 @@ fem::Model build_model(const SceneBody& body);
 /// Reduces an FE body, reads a reduced one, makes a rigid one, as the plan has it; hung by its parent port.
 ReducedBody build_body(const SceneBody& body, const BodyPlan& plan, const reduction::Progress& progress = {});
 
-/// All bodies, joined. Bodies, joints, inputs and outputs keep the order of the scene. Bodies that differ in nothing but
-/// their name are reduced once (same_body.hpp).
+/// All bodies, joined. Bodies, joints, inputs and outputs keep the order of the scene. Bodies that differ in nothing
+/// but their name are reduced once (same_body.hpp).
 Network build_network(const Scene& scene, const Plan& plan, const reduction::Progress& progress = {});
 
 /// Joins given bodies (one for each of the scene's, in its order) as the scene says.

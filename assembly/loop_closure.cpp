@@ -24,7 +24,7 @@ namespace {
 
 constexpr const char* direction_names[6] = {"translation x", "translation y", "translation z",
                                             "rotation x",    "rotation y",    "rotation z"};
-constexpr double nothing = 1e-12;  // of the greatest of its kind: a relative motion that nothing can cause
+constexpr double nothing = 1e-12;  // motion in natural sizes, or of its sides when relative: none but round-off
 
 // Axes of a cut: columns; the third is that of a revolute joint.
 Mat6 axes_of(const Network& network, const PortTree& tree, const Closure& closure) {
@@ -147,41 +147,35 @@ struct Held {
   MatrixXd J;
 };
 
+// Decided on the kinematics, in natural sizes: a direct transmission of nothing but round-off looks like any other.
 Held held_rows(const Network& network, const OpenLoops& open, const PortTree& tree, const StateSpace& ss,
                const LoopCoordinates& c) {
-  const auto nu = static_cast<Index>(network.inputs.size()), ny = static_cast<Index>(network.outputs.size());
+  const auto ny = network.outputs.size();
   const double length = natural_length(tree.placement);
-  // accelerations by wrenches at the cuts: of their sides, translations and rotations; and of one against the other
-  double size[2] = {0.0, 0.0};
-  const auto probes = static_cast<Index>(open.outputs.size());
-  const Index wrenches = tree.ss.D.cols() - static_cast<Index>(open.inputs.size());
-  for (Index r = probes; r < tree.ss.D.rows(); ++r) {
-    double& kind = size[(r - probes) % 6 / 3];
-    kind = std::max(kind, tree.ss.D.row(r).tail(wrenches).cwiseAbs().maxCoeff());
-  }
-  const auto relative_size = [&](Index channel) {
-    return ss.D.row(ny + channel).tail(ss.D.cols() - nu).cwiseAbs().maxCoeff();
-  };
   const LoopMotions motions(open.network, tree, c);
   Held held{{}, MatrixXd::Zero(6 * static_cast<Index>(open.closures.size()), c.size)};
   Index rows = 0;
   std::vector<std::string> redundant;
   double apart = 0.0;
   for (std::size_t k = 0; k < open.closures.size(); ++k) {
-    const Sides sides = sides_of(network, tree, motions, open.closures[k]);
-    const Mat6X relative = (sides.child - sides.parent) * c.scale.asDiagonal();
+    Sides sides = sides_of(network, tree, motions, open.closures[k]);
+    for (Mat6X* side : {&sides.child, &sides.parent}) {
+      *side *= c.scale.asDiagonal();
+      side->bottomRows<3>() *= length;
+    }
+    const Mat6X relative = sides.child - sides.parent;
     for (int d = 0; d < 6; ++d) {
       const int channel = 6 * static_cast<int>(k) + d;
-      const double unit = d < 3 ? 1.0 : length;
+      const double moves = std::max(sides.child.row(d).norm(), sides.parent.row(d).norm());
       if (d == 5 && revolute(network, open.closures[k])) {  // its angle: δθ = relative rotation
-        held.J.row(rows) = unit * relative.row(d);
-        held.J(rows++, c.cut[k]) = -unit * c.scale[c.cut[k]];
-      } else if (relative_size(channel) > nothing * size[d / 3]) {
+        held.J.row(rows) = relative.row(d);
+        held.J(rows++, c.cut[k]) = -length * c.scale[c.cut[k]];
+      } else if (relative.row(d).norm() > nothing * moves && moves > nothing) {
         held.channels.push_back(channel);
-        held.J.row(rows++) = unit * relative.row(d);
-      } else if (const double moves = (sides.child.row(d) * c.scale.asDiagonal()).norm(); unit * moves > nothing) {
-        redundant.push_back("'" + ss.outputs[static_cast<std::size_t>(ny + channel)].name + "'");
-        apart = std::max(apart, relative_size(channel) / size[d / 3]);
+        held.J.row(rows++) = relative.row(d);
+      } else if (moves > nothing) {
+        redundant.push_back("'" + ss.outputs[ny + static_cast<std::size_t>(channel)].name + "'");
+        apart = std::max(apart, relative.row(d).norm() / moves);
       }
     }
   }

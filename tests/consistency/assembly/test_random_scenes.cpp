@@ -88,7 +88,10 @@ void compare(const Network& net, Worst& worst) {
   const double ill =
       std::min(1.0, reliable / ports.worst_condition);  // what is reported as ill-conditioned is as wrong
   if (a.size() == 0) return;
-  worst.frequency = std::max(worst.frequency, ((a - b).array() / a.array()).abs().maxCoeff());
+  const double apart = ((a - b).array() / a.array()).abs().maxCoeff();
+  EXPECT_LT(apart, 1e-9) << "redundant " << second.redundant << ", condition " << ports.worst_condition << " and "
+                         << undamped_ports.worst_condition;
+  worst.frequency = std::max(worst.frequency, apart);
   worst.real_part = std::max(worst.real_part, tenon::titop::poles(ports.ss).real().maxCoeff() / a[0]);
   for (Eigen::Index i = 1; i < a.size(); ++i) {
     if (a[i] < 1.01 * a[i - 1]) continue;
