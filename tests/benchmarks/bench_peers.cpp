@@ -1,13 +1,16 @@
 // Forward dynamics of the same rigid chain by this project, by DART and by Simbody, in one run; the accelerations of
 // all three are compared first. Built when both are installed (libdart-dev, libsimbody-dev).
-#include <Simbody.h>
 #include <benchmark/benchmark.h>
 
-#include <dart/dynamics/dynamics.hpp>
+#include <dart/dynamics/BodyNode.hpp>
+#include <dart/dynamics/Inertia.hpp>
+#include <dart/dynamics/RevoluteJoint.hpp>
+#include <dart/dynamics/Skeleton.hpp>
 #include <iostream>
 
 #include "assembly/recursion/sweeps.hpp"
 #include "chain.hpp"
+#include "simbody_chain.hpp"
 
 using namespace tenon;
 
@@ -46,43 +49,13 @@ struct Dart {
       parent->setInertia(dart::dynamics::Inertia(bench::mass, Eigen::Vector3d(0.5 * bench::length, 0.0, 0.0),
                                                  bench::inertia * Eigen::Matrix3d::Identity()));
     }
-    q = Eigen::VectorXd::NullaryExpr(bodies, bench::bend);
+    q = Eigen::VectorXd::NullaryExpr(bodies, [](Eigen::Index i) { return bench::bend(i); });
     v = -q;
   }
   void run() {
     skeleton->setPositions(q);
     skeleton->setVelocities(v);
     skeleton->computeForwardDynamics();
-  }
-};
-
-struct Simbody {
-  SimTK::MultibodySystem system;
-  SimTK::SimbodyMatterSubsystem matter{system};
-  SimTK::GeneralForceSubsystem forces{system};
-  SimTK::Force::Gravity gravity{forces, matter, SimTK::Vec3(0, 0, -9.81)};
-  SimTK::State state;
-  int bodies;
-  explicit Simbody(int count) : bodies(count) {
-    const SimTK::Vec3 centre(0.5 * bench::length, 0, 0);
-    const SimTK::Body::Rigid link(SimTK::MassProperties(
-        bench::mass, centre, SimTK::Inertia(bench::inertia).shiftFromMassCenter(centre, bench::mass)));
-    SimTK::MobilizedBody parent = matter.Ground();
-    for (int k = 0; k < count; ++k) {
-      const SimTK::Rotation turn = k % 2 == 1 ? SimTK::Rotation(bench::tilt, SimTK::XAxis) : SimTK::Rotation();
-      parent = SimTK::MobilizedBody::Pin(parent, SimTK::Transform(turn, SimTK::Vec3(k > 0 ? bench::length : 0.0, 0, 0)),
-                                         link, SimTK::Transform(turn));
-    }
-    state = system.realizeTopology();
-  }
-  void run() {
-    SimTK::Vector& q = state.updQ();
-    SimTK::Vector& u = state.updU();
-    for (int k = 0; k < bodies; ++k) {
-      q[k] = bench::bend(k);
-      u[k] = -bench::bend(k);
-    }
-    system.realize(state, SimTK::Stage::Acceleration);
   }
 };
 
@@ -98,12 +71,12 @@ void forward(benchmark::State& state) {
 bool agree() {
   Ours ours(20);
   Dart dart(20);
-  Simbody simbody(20);
+  bench::SimbodyChain simbody(20);
   ours.run();
   dart.run();
   simbody.run();
   double by_dart = (dart.skeleton->getAccelerations() - ours.v_dot).norm() / ours.v_dot.norm(), by_simbody = 0.0;
-  for (int k = 0; k < 20; ++k) by_simbody = std::max(by_simbody, std::abs(simbody.state.getUDot()[k] - ours.v_dot[k]));
+  for (int k = 0; k < 20; ++k) by_simbody = std::max(by_simbody, std::abs(simbody.acceleration(k) - ours.v_dot[k]));
   by_simbody /= ours.v_dot.norm();
   std::cout << "accelerations of 20 links: DART " << by_dart << ", Simbody " << by_simbody << " apart\n";
   return by_dart < 1e-10 && by_simbody < 1e-10;
@@ -112,7 +85,7 @@ bool agree() {
 }  // namespace
 
 BENCHMARK(forward<Ours>)->Arg(10)->Arg(100)->Arg(1000)->Unit(benchmark::kMicrosecond);
-BENCHMARK(forward<Simbody>)->Arg(10)->Arg(100)->Arg(1000)->Unit(benchmark::kMicrosecond);
+BENCHMARK(forward<bench::SimbodyChain>)->Arg(10)->Arg(100)->Arg(1000)->Unit(benchmark::kMicrosecond);
 BENCHMARK(forward<Dart>)->Arg(10)->Arg(100)->Arg(1000)->Unit(benchmark::kMicrosecond);
 
 int main(int argc, char** argv) {

@@ -3,10 +3,9 @@
 #include <cmath>
 
 #include "assembly/recursion/multibody.hpp"
+#include "chain_data.hpp"
 
 namespace tenon::bench {
-
-inline constexpr double mass = 2.0, length = 1.0, inertia = 0.2, tilt = 1.0;
 
 /// A link of 1 m with modes of its own, cantilever, hung by its reference.
 inline std::shared_ptr<const reduction::ReducedBody> link(int modes) {
@@ -47,11 +46,9 @@ inline assembly::Multibody chain(int bodies, int modes) {
   return mb;
 }
 
-inline double bend(Eigen::Index i) { return 0.1 * std::sin(1.0 + static_cast<double>(i)); }
-
 inline assembly::MotionState bent(const assembly::Multibody& mb) {
   assembly::MotionState s = rest_state(mb);
-  const Eigen::VectorXd delta = Eigen::VectorXd::NullaryExpr(mb.nv, bend);
+  const Eigen::VectorXd delta = Eigen::VectorXd::NullaryExpr(mb.nv, [](Eigen::Index i) { return bend(i); });
   move(mb, delta, s.q);
   s.v = -delta;
   return s;

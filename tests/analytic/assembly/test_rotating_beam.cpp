@@ -23,7 +23,7 @@ using Eigen::VectorXd;
 tests::BeamData slender() {
   tests::BeamData data;
   data.length = 10.0;
-  data.elements = 32;
+  data.elements = 160;  // the tension of an element is constant: error 0.4 (L/160)², below 2e-5
   data.section.Iy = data.section.Iz = 3e-10;
   data.section.J = 6e-10;
   return data;
