@@ -62,26 +62,28 @@ double add_generalised_force(const Multibody& system, const Sweeps& sweeps, cons
                              const PortRef& port, const Mat6X& Pi, const Vec6& wrench, Eigen::Ref<VectorXd> column) {
   if (port.body < 0) return 0.0;
   double size = 0.0;
-  const auto add = [&](Index at, double value) {
-    column[at] += value;
-    size += value * value;
+  const auto add = [&](Index at, double sign, const auto& shape, const Vec6& f) {
+    column[at] += sign * shape.dot(f);
+    const double most =
+        shape.template head<3>().norm() * f.head<3>().norm() + shape.template tail<3>().norm() * f.tail<3>().norm();
+    size += most * most;
   };
   auto k = static_cast<std::size_t>(port.body);
   const BodySweep* s = &sweeps.bodies[k];
   Vec6 f;  // in the body's axes: at the node, then about the reference
   f << s->world.R.transpose() * wrench.head<3>(), s->world.R.transpose() * wrench.tail<3>();
-  for (Index i = 0; i < system.bodies[k].modes(); ++i) add(system.v_offset[k] + i, Pi.col(i).dot(f));
+  for (Index i = 0; i < system.bodies[k].modes(); ++i) add(system.v_offset[k] + i, 1.0, Pi.col(i), f);
   f = shift_wrench(f, s->world.R.transpose() * (motion.pose.r - s->world.r));
   for (;;) {
     const HingedBody& b = system.bodies[k];
     const Index first = system.v_offset[k], n = b.modes();
-    for (Index i = 0; i < s->Pi_F.cols(); ++i) add(first + i, -s->Pi_F.col(i).dot(f));
-    for (Index j = 0; j < s->H_F.cols(); ++j) add(first + n + j, s->H_F.col(j).dot(f));
+    for (Index i = 0; i < s->Pi_F.cols(); ++i) add(first + i, -1.0, s->Pi_F.col(i), f);
+    for (Index j = 0; j < s->H_F.cols(); ++j) add(first + n + j, 1.0, s->H_F.col(j), f);
     if (b.parent < 0) return size;
     const Vec6 at_node = s->X.wrench(f);
     const Vec3 to_node = s->to_node;
     const auto p = static_cast<std::size_t>(b.parent);
-    for (Index i = 0; i < s->Pi_t.cols(); ++i) add(system.v_offset[p] + i, s->Pi_t.col(i).dot(at_node));
+    for (Index i = 0; i < s->Pi_t.cols(); ++i) add(system.v_offset[p] + i, 1.0, s->Pi_t.col(i), at_node);
     f = shift_wrench(at_node, to_node);
     k = p;
     s = &sweeps.bodies[k];

@@ -29,8 +29,8 @@ PortMotion port_motion(const Multibody& system, const Sweeps& sweeps, const Eige
                        const Eigen::VectorXd& v, const PortRef& port, const Vec3& place, Mat6X& Pi);
 
 /// column += 𝓗Φ [Πᵀ; φ] w: generalised forces of a wrench at a port (world axes, about the port); its transpose gives
-/// the port's twist from χ. Walks from the body to the root. Returns the sum of squares of all that was added: a column
-/// far below its root has cancelled.
+/// the port's twist from χ. Walks from the body to the root. Returns the sum of squares of what each product could have
+/// been by the sizes of its factors: a column far below its root is round-off.
 double add_generalised_force(const Multibody& system, const Sweeps& sweeps, const PortMotion& motion,
                              const PortRef& port, const Mat6X& Pi, const Vec6& wrench,
                              Eigen::Ref<Eigen::VectorXd> column);
