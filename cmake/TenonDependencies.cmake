@@ -10,3 +10,10 @@ find_package(ZLIB REQUIRED)
 find_package(Threads REQUIRED)
 find_package(OpenMP REQUIRED COMPONENTS CXX)
 include(cmake/FindSparseSolvers.cmake)
+
+# libzip: its CMake package demands the programs of zipcmp, which Debian ships apart.
+find_path(ZIP_INCLUDE_DIR zip.h REQUIRED)
+find_library(ZIP_LIBRARY zip REQUIRED)
+add_library(tenon_dep::zip INTERFACE IMPORTED)
+target_include_directories(tenon_dep::zip SYSTEM INTERFACE ${ZIP_INCLUDE_DIR})
+target_link_libraries(tenon_dep::zip INTERFACE ${ZIP_LIBRARY})

@@ -152,6 +152,37 @@ const Schema requirement{"requirements",
 
 const Schema run{"a run", {{"duration", scalar, "of a simulation"}, {"gravity", list, "acceleration of gravity"}}};
 
+const Schema force{"a force",
+                   {{"constant", scalar, "a value in the unit of the input"},
+                    {"step", scalar, "zero before `at`, then this value"},
+                    {"at", scalar, "time of the step; 0 when absent"},
+                    {"sine", scalar, "amplitude"},
+                    {"frequency", scalar, "of the sine, e.g. 2 Hz"},
+                    {"phase", scalar, "of the sine at time 0, e.g. 90 deg"},
+                    {"table", list, "[[time, value], ...], linear between, held outside"}}};
+
+const Schema initial{"an initial motion",
+                     {{"angle", scalar, "of a joint, as in `joints`, e.g. 30 deg"},
+                      {"rate", scalar, "of a joint, radians per unit of time"},
+                      {"velocity", list, "of a floating body's reference, world axes"},
+                      {"angular_rate", list, "of a floating body, world axes, radians per unit of time"}}};
+
+const Key one_force{"force", scalar | map, "", false, &force};
+const Key one_initial{"initial motion", map, "", false, &initial};
+const Schema forces{"forces", {}, &one_force};
+const Schema initials{"initial motions", {}, &one_initial};
+
+const Schema simulation{"a simulation",
+                        {{"time", scalar, "how long"},
+                         {"step", scalar, "of methods with fixed steps; the first one of others"},
+                         {"tolerance", scalar, "relative, of methods that choose their steps"},
+                         {"method", scalar, "generalized-alpha, midpoint, dormand-prince, bdf or adams"},
+                         {"sample", scalar, "time between samples"},
+                         {"gravity", list, "acceleration of gravity, world axes"},
+                         {"deformation", scalar, "full (default): moves ports and shifts mass; dropped: neither"},
+                         {"initial", map, "joint or floating body -> where and how fast it starts", false, &initials},
+                         {"forces", map, "input -> a value, or a force over time", false, &forces}}};
+
 const Key one_body{"body", map, "", false, &body};
 const Key one_joint{"joint", map, "", false, &joint};
 const Key one_mass{"mass", map, "", false, &lumped_mass};
@@ -174,7 +205,8 @@ const Schema scene{
      {"inputs", map, "name -> input", false, &inputs},
      {"outputs", map, "name -> output", false, &outputs},
      {"requires", map, "what the scene is for", false, &requirement},
-     {"run", map, "of a simulation", false, &run}}};
+     {"run", map, "of a simulation", false, &run},
+     {"simulation", map, "large motion, see `tenon simulate`", false, &simulation}}};
 
 unsigned form_of(const Value& value) {
   switch (value.kind) {

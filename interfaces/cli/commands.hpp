@@ -13,6 +13,7 @@ void add_reduce(CLI::App& program, int& status);
 void add_assemble(CLI::App& program, int& status);
 void add_frf(CLI::App& program, int& status);
 void add_sweep(CLI::App& program, int& status);
+void add_simulate(CLI::App& program, int& status);
 void add_beam(CLI::App& program, int& status);
 void add_doctor(CLI::App& program, int& status);
 

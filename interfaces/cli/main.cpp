@@ -45,6 +45,7 @@ int main(int argc, char** argv) {
   cli::add_assemble(program, status);
   cli::add_frf(program, status);
   cli::add_sweep(program, status);
+  cli::add_simulate(program, status);
   cli::add_beam(program, status);
   cli::add_doctor(program, status);
   if (unknown_command(program, argc, argv)) return cli::bad_input;

@@ -1,0 +1,276 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+
+#include "assembly/build.hpp"
+#include "assembly/integration/checkpoint.hpp"
+#include "assembly/integration/simulation.hpp"
+#include "assembly/recursion/stiffening.hpp"
+#include "fem/error.hpp"
+#include "fem/formats/atomic_file.hpp"
+#include "interfaces/cli/commands.hpp"
+#include "interfaces/cli/output.hpp"
+#include "interfaces/report/npz.hpp"
+#include "interfaces/report/svg.hpp"
+
+namespace tenon::cli {
+namespace {
+
+struct Options {
+  std::filesystem::path scene, out, resume;
+  double time = 0.0, step = 0.0, tolerance = 0.0, sample = 0.0;
+  std::string method;
+  bool json = false;
+};
+
+struct Result {
+  assembly::IntegrationOptions run;
+  std::vector<assembly::Channel> channels;
+  std::size_t outputs = 0;
+  std::vector<double> t;
+  std::vector<std::vector<double>> columns;
+  assembly::Integration integration;
+  assembly::IntegrationState state;
+  double moved = 0.0, wall = 0.0;
+  std::vector<std::string> notes;
+};
+
+/// The command line before the scene, the scene before what we choose.
+assembly::IntegrationOptions run_options(const Options& options, const assembly::SceneSimulation& scene) {
+  const auto either = [](double given, const std::optional<double>& written) {
+    return given > 0.0 ? given : written.value_or(0.0);
+  };
+  assembly::IntegrationOptions run;
+  run.until = either(options.time, scene.time);
+  if (run.until == 0.0)
+    throw InputError({options.scene.string()}, "no duration is given",
+                     "Add --time T in s, or `simulation: {time: 10}`");
+  run.step = either(options.step, scene.step);
+  const double tolerance = either(options.tolerance, scene.tolerance);
+  run.tolerance.relative = tolerance > 0.0 ? tolerance : 1e-6;
+  run.tolerance.absolute = 1e-2 * run.tolerance.relative;
+  const std::string& method = options.method.empty() ? scene.method : options.method;
+  if (!method.empty())
+    run.method = assembly::method_named(method);
+  else
+    run.method = run.step > 0.0 && tolerance == 0.0 ? assembly::Method::generalized_alpha : assembly::Method::bdf;
+  run.sample = either(options.sample, scene.sample);
+  if (run.sample == 0.0) run.sample = run.until / 1000.0;
+  if (assembly::fixed_steps(run.method) && run.step == 0.0)
+    throw InputError({options.scene.string()}, fmt::format("{} takes fixed steps and none is given", name(run.method)),
+                     "Add --step h in s, or choose --method bdf");
+  return run;
+}
+
+void note_spin(const assembly::Multibody& system, const assembly::SpinRatio& spin, Result& result) {
+  if (spin.body < 0 || spin.ratio < 0.1) return;
+  result.notes.push_back(fmt::format(
+      "Body '{}' spins at {:.2g} of its first frequency and carries no geometric stiffening: that frequency "
+      "comes out wrong by about {:.2g} %.",
+      system.bodies[static_cast<std::size_t>(spin.body)].name, spin.ratio, 50.0 * spin.ratio * spin.ratio));
+}
+
+Result compute(const Options& options) {
+  const assembly::Scene scene = assembly::read_scene(options.scene);
+  const assembly::SceneSimulation section = assembly::read_simulation(scene);
+  Result result;
+  result.run = run_options(options, section);
+  ProgressBar bar;
+  const auto progress = bar.callback();
+  const assembly::Network network = assembly::build_network(scene, assembly::plan(scene), progress);
+  const assembly::Simulation simulation = assembly::make_simulation(network, section);
+  const assembly::Multibody& system = simulation.bodies.system;
+  const assembly::Loads loads = assembly::make_loads(network, simulation, section);
+  result.moved = simulation.moved;
+  if (options.resume.empty()) {
+    result.state = assembly::begin(system, simulation.start);
+  } else {
+    assembly::Checkpoint checkpoint = assembly::read_checkpoint(options.resume, system);
+    if (checkpoint.method != result.run.method)
+      throw InputError({options.resume.string()},
+                       fmt::format("was written by {}, and the run would go on by {}", name(checkpoint.method),
+                                   name(result.run.method)),
+                       fmt::format("Add --method {}", name(checkpoint.method)));
+    result.state = std::move(checkpoint.state);
+  }
+  assembly::Recorder recorder(network, simulation);
+  result.channels = recorder.channels();
+  result.outputs = recorder.outputs();
+  result.columns.resize(result.channels.size());
+  assembly::SpinRatio spin;
+  const auto observe = [&](const assembly::Sample& sample) {
+    const std::vector<double>& row = recorder.record(sample);
+    result.t.push_back(sample.t);
+    for (std::size_t k = 0; k < row.size(); ++k) result.columns[k].push_back(row[k]);
+    if (const auto now = assembly::spin_ratio(system, sample.dynamics.sweeps); now.ratio >= spin.ratio) spin = now;
+    if (progress) progress(sample.t / result.run.until, "integrating");
+    return true;
+  };
+  using Clock = std::chrono::steady_clock;
+  const auto begun = Clock::now();
+  auto written = begun;
+  const auto keep =
+      [&](const assembly::IntegrationState& state) {  // every half minute: a long run survives a power cut
+        if (options.out.empty() || Clock::now() - written < std::chrono::seconds(30)) return;
+        written = Clock::now();
+        assembly::write_checkpoint(options.out / "checkpoint.json", system, {result.run.method, state});
+      };
+  if (!options.out.empty()) {
+    std::error_code fault;
+    std::filesystem::create_directories(options.out, fault);
+    if (fault) throw InputError({options.out.string()}, fault.message(), "Choose a folder that can be made");
+  }
+  result.integration = assembly::integrate(system, loads, result.state, result.run, observe, keep);
+  result.wall = std::chrono::duration<double>(Clock::now() - begun).count();
+  if (!options.out.empty())
+    assembly::write_checkpoint(options.out / "checkpoint.json", system, {result.run.method, result.state});
+  note_spin(system, spin, result);
+  if (result.moved > 0.0 && options.resume.empty())
+    result.notes.push_back(fmt::format("The loops gaped by {:.2g} m at the start and were closed.", result.moved));
+  return result;
+}
+
+void write_csv(const std::filesystem::path& path, const Result& result) {
+  fem::AtomicFile file(path);
+  file.stream() << "t_s";
+  for (const assembly::Channel& c : result.channels) file.stream() << fmt::format(",{} [{}]", c.name, c.unit);
+  file.stream() << '\n';
+  for (std::size_t i = 0; i < result.t.size(); ++i) {
+    file.stream() << fmt::format("{}", result.t[i]);
+    for (const auto& column : result.columns) file.stream() << fmt::format(",{}", column[i]);
+    file.stream() << '\n';
+  }
+  if (!result.integration.failure.empty()) file.stream() << "# incomplete: " << result.integration.failure << '\n';
+  file.commit();
+}
+
+/// One picture for the outputs of each unit, one for the energies.
+std::vector<std::filesystem::path> write_pictures(const Options& options, const Result& result) {
+  std::vector<std::filesystem::path> written;
+  const auto draw = [&](const std::string& file, const std::string& title, const std::string& label, auto&& take) {
+    report::Plot plot{
+        .title = title, .x_label = "time [s]", .y_label = label, .curves = {}, .log_x = false, .log_y = false};
+    for (std::size_t k = 0; k < result.channels.size(); ++k)
+      if (take(k)) plot.curves.push_back({result.channels[k].name, result.t, result.columns[k]});
+    if (plot.curves.empty()) return;
+    written.push_back(options.out / file);
+    report::write_svg(written.back(), plot);
+  };
+  std::vector<std::string> units;
+  for (std::size_t k = 0; k < result.outputs; ++k)
+    if (std::find(units.begin(), units.end(), result.channels[k].unit) == units.end())
+      units.push_back(result.channels[k].unit);
+  for (const std::string& unit : units) {
+    std::string word = unit;
+    std::replace(word.begin(), word.end(), '/', '_');
+    draw(fmt::format("outputs_{}.svg", word), fmt::format("{}: outputs", options.scene.filename().string()),
+         fmt::format("[{}]", unit),
+         [&](std::size_t k) { return k < result.outputs && result.channels[k].unit == unit; });
+  }
+  draw("energy.svg", fmt::format("{}: energies", options.scene.filename().string()), "[J]",
+       [&](std::size_t k) { return k >= result.outputs && result.channels[k].name.starts_with("energy."); });
+  return written;
+}
+
+std::vector<std::filesystem::path> write_files(const Options& options, const Result& result) {
+  const std::string stem = options.resume.empty() ? "history" : fmt::format("history_from_{:g}", result.t.front());
+  std::vector<std::filesystem::path> written{options.out / (stem + ".csv"), options.out / (stem + ".npz")};
+  write_csv(written[0], result);
+  std::vector<report::NamedArray> arrays{{"t_s", result.t}};
+  for (std::size_t k = 0; k < result.channels.size(); ++k)
+    arrays.push_back({result.channels[k].name, result.columns[k]});
+  report::write_npz(written[1], arrays);
+  for (auto& picture : write_pictures(options, result)) written.push_back(std::move(picture));
+  written.push_back(options.out / "checkpoint.json");
+  return written;
+}
+
+Json to_json(const Result& result, const std::vector<std::filesystem::path>& files) {
+  const assembly::Integration& i = result.integration;
+  Json object{{"method", name(result.run.method)},
+              {"begin_s", result.t.front()},
+              {"end_s", result.t.back()},
+              {"complete", i.failure.empty()},
+              {"failure", i.failure},
+              {"samples", result.t.size()},
+              {"steps", i.steps},
+              {"rejected_steps", i.rejected},
+              {"iterations", i.iterations},
+              {"most_iterations_of_a_step", i.most_iterations},
+              {"evaluations", i.evaluations},
+              {"worst_closure_gap_m", i.worst_gap},
+              {"wall_s", result.wall},
+              {"channels", Json::array()},
+              {"notes", result.notes},
+              {"files", Json::array()}};
+  for (std::size_t k = 0; k < result.channels.size(); ++k) {
+    const auto& c = result.columns[k];
+    object["channels"].push_back({{"name", result.channels[k].name},
+                                  {"unit", result.channels[k].unit},
+                                  {"first", c.front()},
+                                  {"last", c.back()},
+                                  {"least", *std::min_element(c.begin(), c.end())},
+                                  {"most", *std::max_element(c.begin(), c.end())}});
+  }
+  for (const auto& file : files) object["files"].push_back(file.string());
+  return object;
+}
+
+int run(const Options& options) {
+  const Result result = compute(options);
+  const assembly::Integration& i = result.integration;
+  if (result.t.empty())
+    throw InputError({options.resume.string()}, fmt::format("the run stands at {:.6g} s already", result.state.t),
+                     "Give a later --time");
+  std::vector<std::filesystem::path> files;
+  if (!options.out.empty()) files = write_files(options, result);
+  const int status = i.failure.empty() ? done : check_failed;
+  if (options.json) {
+    print(to_json(result, files));
+    return status;
+  }
+  print(fmt::format("{}: {:.6g} to {:.6g} s by {}, {} steps, {:.3g} s of computing", options.scene.string(),
+                    result.t.front(), result.t.back(), name(result.run.method), i.steps, result.wall));
+  Table table({"<of the motion", "first", "last", "least", "most", "<unit"});
+  for (std::size_t k = 0; k < result.channels.size(); ++k) {
+    const auto& c = result.columns[k];
+    table.row({result.channels[k].name, fmt::format("{:.6g}", c.front()), fmt::format("{:.6g}", c.back()),
+               fmt::format("{:.6g}", *std::min_element(c.begin(), c.end())),
+               fmt::format("{:.6g}", *std::max_element(c.begin(), c.end())), result.channels[k].unit});
+  }
+  print(table);
+  if (i.most_iterations > 0)
+    print(fmt::format("At most {} iterations a step, {:.3g} on average.", i.most_iterations,
+                      static_cast<double>(i.iterations) / static_cast<double>(std::max(1L, i.steps))));
+  for (const std::string& note : result.notes) print(wrapped(note, 0));
+  if (!i.failure.empty()) print(wrapped(fmt::format("Incomplete: {}", i.failure), 0));
+  for (const auto& file : files) print(fmt::format("Written: {}", file.string()));
+  return status;
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& program, int& status) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand("simulate", "large motion of a scene over time");
+  command->add_option("SCENE", options->scene, "a scene (.yaml, .json), perhaps with `simulation:`")->required();
+  command->add_option("--time", options->time, "until when [s]")->check(CLI::PositiveNumber);
+  command->add_option("--step", options->step, "of methods with fixed steps [s]")->check(CLI::PositiveNumber);
+  command
+      ->add_option("--tolerance", options->tolerance, "relative, of methods that choose their steps; 1e-6 when absent")
+      ->check(CLI::PositiveNumber);
+  command->add_option(
+      "--method", options->method,
+      "generalized-alpha, midpoint, dormand-prince, bdf or adams; generalized-alpha with --step, else bdf");
+  command->add_option("--sample", options->sample, "time between samples [s]; 1000 samples when absent")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--out", options->out, "a folder for history.csv, history.npz, pictures and checkpoint.json");
+  command->add_option("--resume", options->resume, "go on from a checkpoint.json");
+  command->add_flag("--json", options->json, "one JSON object");
+  command->footer("Example: tenon simulate scene.yaml --time 60 --step 0.01 --out run");
+  command->callback([options, &status] { status = run(*options); });
+}
+
+}  // namespace tenon::cli
