@@ -1,7 +1,6 @@
 #include "assembly/integration/cvode.hpp"
 
 #include <cvode/cvode.h>
-#include <cvode/cvode_proj.h>
 #include <fmt/format.h>
 #include <nvector/nvector_serial.h>
 #include <sunlinsol/sunlinsol_spgmr.h>
@@ -43,11 +42,8 @@ struct Problem {
   Dynamics& dynamics;
   MotionState state;
   VectorXd v_dot;
-  Sweeps matrix, moving;        ///< of the preconditioner, of the projection
-  ClosureRows rows, projected;  ///< of the preconditioner, of the projection
-  ClosureInertia inertia{};
-  VectorXd bias{}, force{}, x{}, zero{}, ignored{};
-  double worst_gap = 0.0;
+  Sweeps matrix;  ///< of the preconditioner
+  VectorXd bias{}, force{}, x{}, zero{};
   std::string fault{};
 
   Eigen::Map<VectorXd> map(N_Vector y) const { return {N_VGetArrayPointer(y), system.nq + system.nv}; }
@@ -120,11 +116,6 @@ int precondition_setup(double, N_Vector y, N_Vector, int, int* current, double g
     p.unpack(y, p.state);
     set_state(p.system, p.state.q, p.state.v, p.matrix);
     articulate(p.system, p.matrix, {gamma, gamma * gamma});
-    if (!p.system.closures.empty()) {
-      closure_rows(p.system, p.matrix, p.state.q, p.state.v, p.rows);
-      p.inertia = closure_inertia(p.system, p.matrix, p.rows);
-      p.rows.gamma.setZero();
-    }
     inverse_dynamics(p.system, p.matrix, p.zero, p.bias);
     *current = 1;
   });
@@ -141,22 +132,10 @@ int precondition(double, N_Vector y, N_Vector, N_Vector r, N_Vector z, double ga
     p.stiffness(r_q, p.state.v);
     p.force -= gamma * p.state.v;
     solve(p.system, p.matrix, p.force, p.x);
-    if (!p.system.closures.empty()) close(p.rows, p.inertia, p.x, p.ignored);
     auto out = p.map(z);
     out.tail(p.system.nv) = p.x;
     p.rates(p.state.q, gamma * p.x, out.head(p.system.nq));
     out.head(p.system.nq) += r_q;
-  });
-}
-
-int projection(double, N_Vector y, N_Vector change, double, N_Vector, void* data) {
-  return guarded(data, [&](Problem& p) {
-    p.unpack(y, p.state);
-    p.worst_gap = std::max(p.worst_gap, project(p.system, p.moving, p.projected, p.state));
-    auto out = p.map(change);
-    out.head(p.system.nq) = p.state.q;
-    out.tail(p.system.nv) = p.state.v;
-    out -= p.map(y);
   });
 }
 
@@ -174,18 +153,16 @@ void demand(int flag, const char* what, double t, const Problem& p) {
 void integrate_cvode(const Multibody& system, Dynamics& dynamics, IntegrationState& state,
                      const IntegrationOptions& options, Integration& result,
                      const std::function<bool(double t, const MotionState& state)>& observe) {
-  const bool stiff = options.method == Method::bdf, loops = dynamics.loops();
-  if (loops && !stiff) throw ModelError("Adams takes no closed loops", "Use --method bdf or generalized-alpha");
+  const bool stiff = options.method == Method::bdf;
+  if (dynamics.loops())
+    throw ModelError(fmt::format("{} takes no closed loops", name(options.method)),
+                     "Use --method dormand-prince, or generalized-alpha with --step");
   Problem p{.system = system,
             .dynamics = dynamics,
             .state = state.at.motion,
             .v_dot = VectorXd::Zero(system.nv),
-            .matrix = dynamics.sweeps,
-            .moving = dynamics.sweeps,
-            .rows = dynamics.rows,
-            .projected = dynamics.rows};
+            .matrix = dynamics.sweeps};
   p.bias = p.force = p.x = p.zero = VectorXd::Zero(system.nv);
-  p.ignored = VectorXd::Zero(p.rows.rows());
 
   SUNContext made = nullptr;
   SUNContext_Create(nullptr, &made);
@@ -207,10 +184,6 @@ void integrate_cvode(const Multibody& system, Dynamics& dynamics, IntegrationSta
     linear.reset(SUNLinSol_SPGMR(y.get(), SUN_PREC_LEFT, 10, made));
     CVodeSetLinearSolver(cvode, linear.get(), nullptr);
     CVodeSetPreconditioner(cvode, precondition_setup, precondition);
-    if (loops) {
-      CVodeSetProjFn(cvode, projection);
-      CVodeSetProjErrEst(cvode, SUNFALSE);
-    }
   } else {
     nonlinear.reset(SUNNonlinSol_FixedPoint(y.get(), 2, made));
     CVodeSetNonlinearSolver(cvode, nonlinear.get());
@@ -220,7 +193,6 @@ void integrate_cvode(const Multibody& system, Dynamics& dynamics, IntegrationSta
   const auto interpolated = [&](double t) -> const MotionState& {
     demand(CVodeGetDky(cvode, t, 0, at.get()), "its continuous output", t, p);
     p.unpack(at.get(), shown);
-    if (loops) project(system, p.moving, p.projected, shown);
     return shown;
   };
   const auto count = [&] {
@@ -231,7 +203,6 @@ void integrate_cvode(const Multibody& system, Dynamics& dynamics, IntegrationSta
     result.steps = steps;
     result.rejected = rejected;
     result.iterations = iterations;
-    result.worst_gap = p.worst_gap;
   };
   bool go_on = true;
   if (state.samples == 0) go_on = observe(state.t, state.at.motion), state.samples = 1;

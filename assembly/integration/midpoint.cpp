@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "assembly/integration/implicit.hpp"
@@ -91,7 +92,7 @@ double load_power(const Multibody& system, const Sweeps& sweeps, const ImplicitW
 // gravity and springs along v_mid is given back by a force D v_mid on modes and hinges between bodies, D their own
 // inertias, so that total momenta do not feel it. Of order h³, and none when nothing moves inside.
 void balance_energy(Dynamics& dynamics, double h, double change, const MotionState& mid, ImplicitWork& work) {
-  constexpr double most = 1e-3;  // of the energy inside: beyond, as where all stands still for a moment, it fades out
+  constexpr double most = 1e-2;  // of the energy inside: beyond, as where all stands still for a moment, it fades out
   const Multibody& system = *dynamics.system;
   passive_forces(system, mid.q, VectorXd::Zero(system.nv), work.x);  // springs without dampers
   const double work_done =
@@ -122,6 +123,8 @@ void midpoint_step(Dynamics& dynamics, double t, double h, const ImplicitOptions
   MotionState &to = work.next, &mid = work.mid;
   if (!work.started) set_state(system, from.q, from.v, work.start);
   work.started = true;
+  const bool floats = std::all_of(system.bodies.begin(), system.bodies.end(),
+                                  [](const HingedBody& b) { return b.parent >= 0 || b.kind == HingeKind::free; });
   const double energy_before = energy(system, work.start, from.q, from.v).total();
   to.v = from.v + h * state.v_dot;
   work.impulse = h * dynamics.lambda;
@@ -165,7 +168,7 @@ void midpoint_step(Dynamics& dynamics, double t, double h, const ImplicitOptions
       for (Index j = 0; j < system.bodies[k].dofs(); ++j)
         work.r[at + j] += system.bodies[k].inertia[j] * (to.v[at + j] - from.v[at + j]);
     }
-    if (!dynamics.sweeps.stiffening)
+    if (floats && !dynamics.sweeps.stiffening)
       balance_energy(dynamics, h, energy(system, work.end, to.q, to.v).total() - energy_before, mid, work);
     if (dynamics.loops()) {  // forces with J of the middle, positions closed at the end
       closure_rows(system, work.end, to.q, to.v, dynamics.rows);

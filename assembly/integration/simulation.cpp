@@ -107,7 +107,17 @@ Simulation make_simulation(const Network& network, const SceneSimulation& scene)
   if (!system.closures.empty()) {
     Sweeps sweeps = make_sweeps(system);
     ClosureRows rows = make_closure_rows(system);
+    const VectorXd asked = simulation.start.v;
     simulation.moved = project(system, sweeps, rows, simulation.start);
+    // speeds as of rigid bodies: in the metric of M + K s², which holds modes and springs still
+    simulation.start.v = asked;
+    set_state(system, simulation.start.q, asked, sweeps);
+    closure_rows(system, sweeps, simulation.start.q, asked, rows);
+    articulate(system, sweeps, {0.0, 1.0});
+    const ClosureInertia inertia = closure_inertia(system, sweeps, rows);
+    rows.gamma.setZero();
+    VectorXd lambda(rows.rows());
+    close(rows, inertia, simulation.start.v, lambda);
   }
   return simulation;
 }

@@ -67,9 +67,9 @@ assembly::IntegrationOptions run_options(const Options& options, const assembly:
 void note_spin(const assembly::Multibody& system, const assembly::SpinRatio& spin, Result& result) {
   if (spin.body < 0 || spin.ratio < 0.1) return;
   result.notes.push_back(fmt::format(
-      "Body '{}' spins at {:.2g} of its first frequency and carries no geometric stiffening: that frequency "
-      "comes out wrong by about {:.2g} %.",
-      system.bodies[static_cast<std::size_t>(spin.body)].name, spin.ratio, 50.0 * spin.ratio * spin.ratio));
+      "Body '{}' turned at {:.2g} of its first frequency and carries no geometric stiffening: its bending comes "
+      "out wrong by about the square of that.",
+      system.bodies[static_cast<std::size_t>(spin.body)].name, spin.ratio));
 }
 
 Result compute(const Options& options) {
@@ -82,6 +82,9 @@ Result compute(const Options& options) {
   const assembly::Network network = assembly::build_network(scene, assembly::plan(scene), progress);
   const assembly::Simulation simulation = assembly::make_simulation(network, section);
   const assembly::Multibody& system = simulation.bodies.system;
+  if (options.method.empty() && section.method.empty() && result.run.method == assembly::Method::bdf &&
+      !system.closures.empty())
+    result.run.method = assembly::Method::dormand_prince;  // CVODE takes no loops
   const assembly::Loads loads = assembly::make_loads(network, simulation, section);
   result.moved = simulation.moved;
   if (options.resume.empty()) {
@@ -127,7 +130,7 @@ Result compute(const Options& options) {
   if (!options.out.empty())
     assembly::write_checkpoint(options.out / "checkpoint.json", system, {result.run.method, result.state});
   note_spin(system, spin, result);
-  if (result.moved > 0.0 && options.resume.empty())
+  if (result.moved > 1e-9 && options.resume.empty())
     result.notes.push_back(fmt::format("The loops gaped by {:.2g} m at the start and were closed.", result.moved));
   return result;
 }

@@ -64,8 +64,8 @@ TEST(Integrate, DoublePendulumFollowsLagrange) {
   EXPECT_LT(error({.method = Method::bdf, .until = time, .sample = 0.1, .tolerance = tight}), 1e-5);
   EXPECT_LT(error({.method = Method::adams, .until = time, .sample = 0.1, .tolerance = tight}), 1e-6);
   for (const Method method : {Method::midpoint, Method::generalized_alpha}) {
-    const double coarse = error({.method = method, .until = time, .step = 1e-3, .sample = 0.1});
-    const double fine = error({.method = method, .until = time, .step = 5e-4, .sample = 0.1});
+    const double coarse = error({.method = method, .until = time, .step = 4e-4, .sample = 0.1});
+    const double fine = error({.method = method, .until = time, .step = 2e-4, .sample = 0.1});
     EXPECT_NEAR(std::log2(coarse / fine), 2.0, 0.1);
   }
 }
@@ -97,7 +97,7 @@ TEST(Integrate, SliderCrankKeepsItsOneIntegral) {
   double turn = 0.0;
   for (int k = 0; k < 400; ++k)
     turn += std::sqrt(crank.inertia(2.0 * std::numbers::pi * k / 400.0) / twoE) * 2.0 * std::numbers::pi / 400.0;
-  for (const Method method : {Method::dormand_prince, Method::bdf, Method::midpoint, Method::generalized_alpha}) {
+  for (const Method method : {Method::dormand_prince, Method::midpoint, Method::generalized_alpha}) {
     const bool fixed = fixed_steps(method);
     double worst = 0.0, slide = 0.0, end = 0.0;
     IntegrationState state = begin(mb, crank.start(mb, phi0, rate));
@@ -241,6 +241,7 @@ TEST(Integrate, WhatCameBeforeAFailureIsKept) {
 TEST(Integrate, StatesThatMakeNoSenseAreRefused) {
   const SliderCrank crank;
   const Multibody mb = crank.system();
+  EXPECT_THROW(run(mb, crank.start(mb, 0.3, 1.0), {.method = Method::bdf}), ModelError);  // takes no loops
   MotionState open = crank.start(mb, 0.3, 1.0);
   open.q[2] += 1e-3;
   EXPECT_THROW(begin(mb, open), ModelError);
