@@ -152,7 +152,7 @@ void midpoint_step(Dynamics& dynamics, double t, double h, const ImplicitOptions
   set_state(system, to.q, to.v, work.end);
   for (;;) {
     set_state(system, mid.q, mid.v, dynamics.sweeps);
-    for (std::size_t k = 0; k < system.bodies.size(); ++k) work.b[k].tail<6>() = dynamics.sweeps.bodies[k].b.tail<6>();
+    for (std::size_t k = 0; k < system.bodies.size(); ++k) work.b[k] = dynamics.sweeps.bodies[k].b;
     apply_forces(dynamics, t + 0.5 * h, mid);
     if (work.iterations == 0) {
       const Energy e = energy(system, dynamics.sweeps, mid.q, mid.v);
