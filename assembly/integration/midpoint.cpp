@@ -123,8 +123,8 @@ void midpoint_step(Dynamics& dynamics, double t, double h, const ImplicitOptions
   MotionState &to = work.next, &mid = work.mid;
   if (!work.started) set_state(system, from.q, from.v, work.start);
   work.started = true;
-  const bool floats = std::all_of(system.bodies.begin(), system.bodies.end(),
-                                  [](const HingedBody& b) { return b.parent >= 0 || b.kind == HingeKind::free; });
+  const bool balanced = std::all_of(system.bodies.begin(), system.bodies.end(),
+                                    [](const HingedBody& b) { return b.parent >= 0 || b.kind == HingeKind::free; });
   const double energy_before = energy(system, work.start, from.q, from.v).total();
   to.v = from.v + h * state.v_dot;
   work.impulse = h * dynamics.lambda;
@@ -168,8 +168,7 @@ void midpoint_step(Dynamics& dynamics, double t, double h, const ImplicitOptions
       for (Index j = 0; j < system.bodies[k].dofs(); ++j)
         work.r[at + j] += system.bodies[k].inertia[j] * (to.v[at + j] - from.v[at + j]);
     }
-    if (floats && !dynamics.sweeps.stiffening)
-      balance_energy(dynamics, h, energy(system, work.end, to.q, to.v).total() - energy_before, mid, work);
+    if (balanced) balance_energy(dynamics, h, energy(system, work.end, to.q, to.v).total() - energy_before, mid, work);
     if (dynamics.loops()) {  // forces with J of the middle, positions closed at the end
       closure_rows(system, work.end, to.q, to.v, dynamics.rows);
       work.gap = dynamics.rows.gap;
