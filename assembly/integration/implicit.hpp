@@ -51,7 +51,7 @@ void generalized_alpha_step(Dynamics& dynamics, double t, double h, const Implic
 /// Jacobians at mid; attitudes turn by Cayley's map of h (v₀ + v₁)/2. So a floating system keeps its linear and angular
 /// momentum to round-off, whatever the step, and a free rigid body its energy. When every root floats, energy is
 /// balanced too, by a force of order h² on the hinges between bodies that fades out where all of them stand
-/// still. Grounded systems swing in energy by O(h²). Bodies whose deformation is dropped, or that have no shape
+/// still. Other systems swing in energy by O(h²). Bodies whose deformation is dropped, or that have no shape
 /// integrals, keep no momentum (their equations do not) and are balanced in their own axes; with geometric stiffening
 /// energy() is not what is kept, and nothing balances it. Throws NumericalError when the step does not converge.
 void midpoint_step(Dynamics& dynamics, double t, double h, const ImplicitOptions& options, ImplicitWork& work,

@@ -123,8 +123,9 @@ void midpoint_step(Dynamics& dynamics, double t, double h, const ImplicitOptions
   MotionState &to = work.next, &mid = work.mid;
   if (!work.started) set_state(system, from.q, from.v, work.start);
   work.started = true;
-  const bool balanced = std::all_of(system.bodies.begin(), system.bodies.end(),
-                                    [](const HingedBody& b) { return b.parent >= 0 || b.kind == HingeKind::free; });
+  const bool balanced = std::all_of(system.bodies.begin(), system.bodies.end(), [](const HingedBody& b) {
+    return b.modes() == 0 && (b.parent >= 0 || b.kind == HingeKind::free);
+  });
   const double energy_before = energy(system, work.start, from.q, from.v).total();
   to.v = from.v + h * state.v_dot;
   work.impulse = h * dynamics.lambda;
