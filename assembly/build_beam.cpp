@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "fem/structure.hpp"
+#include "reduction/large_motion.hpp"
 #include "titop/beam.hpp"
 
 namespace tenon::assembly {
@@ -150,9 +151,14 @@ ReducedBody make_beam(const SceneBody& body, const BeamSource& beam, const BodyP
   if (beam.model != BeamSource::Model::fe) return analytic(body, beam);
   reduction::ReduceOptions options = plan.options;
   options.progress = progress;
+  options.nonlinear = false;  // follows in the axes of the scene
   ReducedBody reduced = beam.planar ? planar(body, beam, options) : spatial(body, beam, options);
   reduced.name = body.name;
   reduced.certificate.elements = beam.elements;
+  if (plan.options.nonlinear) {
+    const fem::Model model = beam_model(body, beam);
+    reduction::add_large_motion(model, fem::assemble(model), reduced);
+  }
   return reduced;
 }
 

@@ -8,6 +8,7 @@
 #include "assembly/close_angles.hpp"
 #include "assembly/same_body.hpp"
 #include "reduction/body_file.hpp"
+#include "reduction/large_motion.hpp"
 
 namespace tenon::assembly {
 namespace {
@@ -47,6 +48,7 @@ ReducedBody reduce_fe(const SceneBody& body, const FeSource& fe, const BodyPlan&
     reduction::ReduceOptions options = plan.options;
     options.progress = progress;
     reduced = reduction::reduce(structure, body.parent_port, options);
+    if (options.nonlinear) reduction::add_large_motion(model, structure, reduced);
   }
   reduced.name = body.name;
   reduced.certificate.source = fe.file.filename().string();

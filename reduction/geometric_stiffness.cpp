@@ -6,6 +6,7 @@
 
 #include "fem/error.hpp"
 #include "reduction/dense.hpp"
+#include "reduction/free_rows.hpp"
 #include "reduction/partition.hpp"
 #include "reduction/shape_integrals.hpp"
 #include "reduction/sparse.hpp"
@@ -14,16 +15,6 @@
 namespace tenon::reduction {
 
 namespace {
-
-// rows of a 6N×n field that are free dofs
-Eigen::MatrixXd free_rows(const fem::Structure& structure, const Eigen::MatrixXd& full) {
-  Eigen::MatrixXd rows(structure.n(), full.cols());
-  for (Eigen::Index row = 0; row < rows.rows(); ++row) {
-    const fem::Dof& dof = structure.dofs.free[static_cast<std::size_t>(row)];
-    rows.row(row) = full.row(6 * dof.node + dof.direction);
-  }
-  return rows;
-}
 
 // ω × (ω × l) per ω_iω_j at every node, in the order of the loads; angular accelerations cancel: e_i × e_j + e_j × e_i
 Eigen::MatrixXd centrifugal_field(const fem::Structure& structure, const Vec3& reference) {

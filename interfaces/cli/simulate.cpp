@@ -79,7 +79,9 @@ Result compute(const Options& options) {
   result.run = run_options(options, section);
   ProgressBar bar;
   const auto progress = bar.callback();
-  const assembly::Network network = assembly::build_network(scene, assembly::plan(scene), progress);
+  assembly::Plan plan = assembly::plan(scene);
+  for (assembly::BodyPlan& body : plan.bodies) body.options.nonlinear = !section.dropped;
+  const assembly::Network network = assembly::build_network(scene, plan, progress);
   const assembly::Simulation simulation = assembly::make_simulation(network, section);
   const assembly::Multibody& system = simulation.bodies.system;
   if (options.method.empty() && section.method.empty() && result.run.method == assembly::Method::bdf &&
