@@ -27,29 +27,29 @@ constexpr const char* direction_names[6] = {"translation x", "translation y", "t
 constexpr double nothing = 1e-12;  // motion in natural sizes, or of its sides when relative: none but round-off
 
 // Axes of a cut: columns; the third is that of a revolute joint.
-Mat6 axes_of(const Network& network, const PortTree& tree, const Closure& closure) {
+Mat6 axes_of(const Network& network, const PortTree& tree, const Cut& cut) {
   Mat6 axes = Mat6::Identity();
-  if (closure.joint < 0) return axes;
-  const Joint& joint = network.joints[static_cast<std::size_t>(closure.joint)];
+  if (cut.joint < 0) return axes;
+  const Joint& joint = network.joints[static_cast<std::size_t>(cut.joint)];
   if (joint.kind != JointKind::revolute) return axes;
   const Vec3 axis = joint_axis(network, tree.placement, joint), e1 = axis.unitOrthogonal();
   axes.bottomRightCorner<3, 3>() << e1, axis.cross(e1), axis;
   return axes;
 }
 
-bool revolute(const Network& network, const Closure& closure) {
-  return closure.joint >= 0 && network.joints[static_cast<std::size_t>(closure.joint)].kind == JointKind::revolute;
+bool revolute(const Network& network, const Cut& cut) {
+  return cut.joint >= 0 && network.joints[static_cast<std::size_t>(cut.joint)].kind == JointKind::revolute;
 }
 
-std::string cut_name(const Network& network, const Closure& closure) {
-  return closure.joint >= 0 ? fmt::format("joint '{}'", network.joints[static_cast<std::size_t>(closure.joint)].name)
-                            : "ground of " + name(network, closure.ground);
+std::string cut_name(const Network& network, const Cut& cut) {
+  return cut.joint >= 0 ? fmt::format("joint '{}'", network.joints[static_cast<std::size_t>(cut.joint)].name)
+                            : "ground of " + name(network, cut.ground);
 }
 
 // The open tree with inputs and outputs of the closed network, then six wrench channels of each cut (on its child side,
 // reaction on the other) and six relative accelerations.
 StateSpace with_cuts(const Network& network, const OpenLoops& open, const PortTree& tree) {
-  const auto cuts = static_cast<Index>(open.closures.size());
+  const auto cuts = static_cast<Index>(open.cuts.size());
   const auto nu = static_cast<Index>(network.inputs.size()), ny = static_cast<Index>(network.outputs.size());
   MatrixXd Ru = MatrixXd::Zero(tree.ss.D.cols(), nu + 6 * cuts), Ly = MatrixXd::Zero(ny + 6 * cuts, tree.ss.D.rows());
   for (std::size_t k = 0; k < open.inputs.size(); ++k) Ru(static_cast<Index>(k), open.inputs[k]) = 1.0;
@@ -59,30 +59,30 @@ StateSpace with_cuts(const Network& network, const OpenLoops& open, const PortTr
   for (const Input& input : network.inputs) in.push_back(channel(input));
   for (const Output& output : network.outputs) out.push_back(channel(output));
   for (Index k = 0; k < cuts; ++k) {
-    const Closure& closure = open.closures[static_cast<std::size_t>(k)];
-    const Mat6 axes = axes_of(network, tree, closure);
+    const Cut& cut = open.cuts[static_cast<std::size_t>(k)];
+    const Mat6 axes = axes_of(network, tree, cut);
     Ru.block<6, 6>(u, nu + 6 * k) = axes;
     Ly.block<6, 6>(ny + 6 * k, y) = axes.transpose();
     u += 6, y += 6;
-    if (closure.joint >= 0) {
+    if (cut.joint >= 0) {
       Ru.block<6, 6>(u, nu + 6 * k) = -axes;
       Ly.block<6, 6>(ny + 6 * k, y) = -axes.transpose();
       u += 6, y += 6;
     }
-    const bool turns = revolute(network, closure);
+    const bool turns = revolute(network, cut);
     for (int d = 0; d < 6; ++d) {
       const std::string what = turns && d == 5   ? "rotation about the axis"
                                : turns && d == 4 ? "second rotation across the axis"
                                : turns && d == 3 ? "rotation across the axis"
                                                  : direction_names[d];
-      in.push_back({fmt::format("{}, {}", cut_name(network, closure), what), d < 3 ? "N" : "N m"});
+      in.push_back({fmt::format("{}, {}", cut_name(network, cut), what), d < 3 ? "N" : "N m"});
       out.push_back({in.back().name, d < 3 ? "m/s²" : "rad/s²"});
     }
     if (!turns) continue;  // what works on the angle of the cut itself
     for (std::size_t i = 0; i < network.inputs.size(); ++i)
-      if (network.inputs[i].joint == closure.joint) Ru.col(static_cast<Index>(i)) += Ru.col(nu + 6 * k + 5);
+      if (network.inputs[i].joint == cut.joint) Ru.col(static_cast<Index>(i)) += Ru.col(nu + 6 * k + 5);
     for (std::size_t i = 0; i < network.outputs.size(); ++i)
-      if (network.outputs[i].joint == closure.joint) Ly.row(static_cast<Index>(i)) += Ly.row(ny + 6 * k + 5);
+      if (network.outputs[i].joint == cut.joint) Ly.row(static_cast<Index>(i)) += Ly.row(ny + 6 * k + 5);
   }
   return titop::gains(Ly, tree.ss, Ru, std::move(out), std::move(in));
 }
@@ -112,13 +112,13 @@ StateSpace with_drive(const StateSpace& ss, const Joint& joint, Index in, Index 
 struct Sides {
   Mat6X child, parent;
 };
-Sides sides_of(const Network& network, const PortTree& tree, const LoopMotions& motions, const Closure& closure) {
-  if (closure.joint < 0) {
-    const Mat6X child = motions.port(closure.ground);
+Sides sides_of(const Network& network, const PortTree& tree, const LoopMotions& motions, const Cut& cut) {
+  if (cut.joint < 0) {
+    const Mat6X child = motions.port(cut.ground);
     return {child, Mat6X::Zero(6, child.cols())};
   }
-  const Joint& joint = network.joints[static_cast<std::size_t>(closure.joint)];
-  const Mat6 turn = axes_of(network, tree, closure).transpose();
+  const Joint& joint = network.joints[static_cast<std::size_t>(cut.joint)];
+  const Mat6 turn = axes_of(network, tree, cut).transpose();
   return {turn * motions.port(joint.child), turn * motions.port(joint.parent)};
 }
 
@@ -153,12 +153,12 @@ Held held_rows(const Network& network, const OpenLoops& open, const PortTree& tr
   const auto ny = network.outputs.size();
   const double length = natural_length(tree.placement);
   const LoopMotions motions(open.network, tree, c);
-  Held held{{}, MatrixXd::Zero(6 * static_cast<Index>(open.closures.size()), c.size)};
+  Held held{{}, MatrixXd::Zero(6 * static_cast<Index>(open.cuts.size()), c.size)};
   Index rows = 0;
   std::vector<std::string> redundant;
   double apart = 0.0;
-  for (std::size_t k = 0; k < open.closures.size(); ++k) {
-    Sides sides = sides_of(network, tree, motions, open.closures[k]);
+  for (std::size_t k = 0; k < open.cuts.size(); ++k) {
+    Sides sides = sides_of(network, tree, motions, open.cuts[k]);
     for (Mat6X* side : {&sides.child, &sides.parent}) {
       *side *= c.scale.asDiagonal();
       side->bottomRows<3>() *= length;
@@ -167,7 +167,7 @@ Held held_rows(const Network& network, const OpenLoops& open, const PortTree& tr
     for (int d = 0; d < 6; ++d) {
       const int channel = 6 * static_cast<int>(k) + d;
       const double moves = std::max(sides.child.row(d).norm(), sides.parent.row(d).norm());
-      if (d == 5 && revolute(network, open.closures[k])) {  // its angle: δθ = relative rotation
+      if (d == 5 && revolute(network, open.cuts[k])) {  // its angle: δθ = relative rotation
         held.J.row(rows) = relative.row(d);
         held.J(rows++, c.cut[k]) = -length * c.scale[c.cut[k]];
       } else if (relative.row(d).norm() > nothing * moves && moves > nothing) {
@@ -260,11 +260,11 @@ OpenLoops open_loops(const Network& network) {
       held = &ref;
       tree.ground.push_back(ref);
     } else if (held->body != ref.body || held->port != ref.port) {
-      open.closures.push_back({-1, ref});
+      open.cuts.push_back({-1, ref});
     }
   }
-  for (const int j : placement.closing_joints) open.closures.push_back({j, {}});
-  if (open.closures.empty()) return open;
+  for (const int j : placement.closing_joints) open.cuts.push_back({j, {}});
+  if (open.cuts.empty()) return open;
 
   std::vector<int> place_of(network.joints.size(), -1);  // of each joint in the open network
   tree.joints.clear();
@@ -294,12 +294,12 @@ OpenLoops open_loops(const Network& network) {
           {.name = "cut", .quantity = Quantity::acceleration, .at = at, .direction = d, .joint = {}});
     }
   };
-  for (const Closure& closure : open.closures) {
-    if (closure.joint < 0) {
-      probe(closure.ground);
+  for (const Cut& cut : open.cuts) {
+    if (cut.joint < 0) {
+      probe(cut.ground);
       continue;
     }
-    const Joint& joint = network.joints[static_cast<std::size_t>(closure.joint)];
+    const Joint& joint = network.joints[static_cast<std::size_t>(cut.joint)];
     probe(joint.child);
     probe(joint.parent);
   }
@@ -312,11 +312,11 @@ PortAlgebra close_loops(const Network& network, const OpenLoops& open, const Por
   const LoopCoordinates c = loop_coordinates(network, open, tree);
   const Held held = held_rows(network, open, tree, ss, c);
   std::vector<PortState> states = tree.states;
-  for (std::size_t k = 0; k < open.closures.size(); ++k) {
-    if (!revolute(network, open.closures[k])) continue;
+  for (std::size_t k = 0; k < open.cuts.size(); ++k) {
+    if (!revolute(network, open.cuts[k])) continue;
     const Index before = ss.A.rows();
     const auto axis = static_cast<Index>(6 * k + 5);
-    ss = with_drive(ss, network.joints[static_cast<std::size_t>(open.closures[k].joint)], static_cast<Index>(nu) + axis,
+    ss = with_drive(ss, network.joints[static_cast<std::size_t>(open.cuts[k].joint)], static_cast<Index>(nu) + axis,
                     static_cast<Index>(ny) + axis);
     for (Index s = before; s < ss.A.rows(); ++s)
       states.push_back({-1, static_cast<int>(open.network.joints.size() + k), 0, s + 1 == ss.A.rows(), 1.0});

@@ -8,7 +8,7 @@
 namespace tenon::assembly {
 
 /// A cut of a loop: the joint that closes it, or a grounded port beyond the first of its piece.
-struct Closure {
+struct Cut {
   int joint = -1;
   PortRef ground;  ///< with joint < 0
 };
@@ -17,7 +17,7 @@ struct Closure {
 /// port of a cut: two ports of a joint (child, then parent), one of a grounded port.
 struct OpenLoops {
   Network network;
-  std::vector<Closure> closures;
+  std::vector<Cut> cuts;
   std::vector<int> inputs, outputs;  ///< of the closed network, that the open one has: their numbers, in its order
 };
 OpenLoops open_loops(const Network& network);

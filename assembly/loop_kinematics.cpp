@@ -23,7 +23,7 @@ LoopCoordinates loop_coordinates(const Network& network, const OpenLoops& open, 
   c.root.assign(tree.branches.size(), -1);
   c.joint.assign(open.network.joints.size(), -1);
   c.body.assign(network.bodies.size(), -1);
-  c.cut.assign(open.closures.size(), -1);
+  c.cut.assign(open.cuts.size(), -1);
   for (std::size_t k = 0; k < tree.branches.size(); ++k) {
     const Branch& branch = tree.branches[k];
     int rotations = 0;
@@ -38,8 +38,8 @@ LoopCoordinates loop_coordinates(const Network& network, const OpenLoops& open, 
     c.body[b] = static_cast<int>(scale.size());
     for (const double amplitude : natural_amplitudes(body, length)) scale.push_back(amplitude);
   }
-  for (std::size_t k = 0; k < open.closures.size(); ++k)
-    if (const int j = open.closures[k].joint;
+  for (std::size_t k = 0; k < open.cuts.size(); ++k)
+    if (const int j = open.cuts[k].joint;
         j >= 0 && network.joints[static_cast<std::size_t>(j)].kind == JointKind::revolute)
       add(c.cut[k], 1, 1.0 / length);
   c.size = static_cast<Index>(scale.size());

@@ -23,7 +23,7 @@ PortAlgebra port_algebra(const Network& network) {
           "Use the second-order route, or ask for the acceleration");
   const OpenLoops open = open_loops(network);
   PortTree tree = port_tree(open.network);
-  if (open.closures.empty()) return {std::move(tree.ss), tree.worst_condition};
+  if (open.cuts.empty()) return {std::move(tree.ss), tree.worst_condition};
   return close_loops(network, open, tree);
 }
 
