@@ -37,13 +37,8 @@ std::vector<double> printed(const std::string& deck) {
   return values;
 }
 
-class NastranCb : public testing::Test {
+class NastranCb : public fem::NastranDecks {
  protected:
-  void SetUp() override {
-    if (!std::filesystem::exists(folder / "full.dat"))
-      GTEST_SKIP() << fem::decks_absent;  // they are NX Nastran's, may not be copied into the project
-  }
-
   static fem::Model with_ports(const std::string& deck) {
     fem::NastranDeck read = fem::read_nastran(folder / (deck + ".dat"));
     for (const int node : read.boundary_nodes)

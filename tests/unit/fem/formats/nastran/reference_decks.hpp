@@ -16,18 +16,13 @@ inline std::filesystem::path shared_deck(const std::string& name) {
   return shared / "data" / "nastran-cb" / name;
 }
 
-/// Why the tests on those decks skip.
-inline constexpr const char* decks_absent =
-    "the nastran-cb decks may not be copied into the project and are not here: set TENON_SHARED to the folder that "
-    "holds "
-    "data/nastran-cb";
-
-/// Tests on those decks; they are skipped where the decks are absent.
+/// Tests on those decks. They are the one thing the project cannot ship: the only tests that skip.
 class NastranDecks : public ::testing::Test {
  protected:
   void SetUp() override {
     if (!std::filesystem::exists(shared_deck("full.dat")))
-      GTEST_SKIP() << decks_absent;  // the only tests that skip: all other data stand in data/
+      GTEST_SKIP() << "NX Nastran's decks may not be copied into the project: set TENON_SHARED to the folder of "
+                      "data/nastran-cb";
   }
 };
 
