@@ -33,6 +33,9 @@ inline Mat6 shift_inertia(const Mat6& P, const Vec3& l) {
   return Q;
 }
 
+/// s of an inertia about a reference, D = [m, −s̃; s̃, J]: mass times the place of its centre [kg m].
+inline Vec3 first_moment(const Mat6& D) { return {D(5, 1), D(3, 2), D(4, 0)}; }
+
 /// R P Rᵀ of a symmetric P, block by block.
 inline Mat6 rotate_inertia(const Mat6& P, const Mat3& R) {
   const auto symmetric = [&](const Mat3& A) {

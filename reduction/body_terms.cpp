@@ -2,6 +2,8 @@
 
 #include <cassert>
 
+#include "fem/rigid_motion.hpp"
+
 namespace tenon::reduction {
 
 namespace {
@@ -27,7 +29,6 @@ struct ModeSums {
 };
 
 // s0 of D = [m −s̃0; s̃0 J0]
-Vec3 first_moment(const Mat6& D) { return {D(5, 1), D(3, 2), D(4, 0)}; }
 
 // the part of b that the nodes' rotary inertia adds; J_j's share of J0 and C0 is in there already
 void add_nodes(const NodeGyroscopics& g, const double* eta_dot, const Vec3& w, Eigen::Ref<Eigen::VectorXd> b) {
@@ -66,7 +67,7 @@ void body_terms(const ReducedBody& body, const ShapeIntegrals* integrals, Nonlin
   M.topRightCorner(n, 6) = body.L.topRows(n);
   M.bottomRightCorner<6, 6>() = body.D;
 
-  Vec3 s = first_moment(body.D), S_dot = Vec3::Zero(), C_dot = Vec3::Zero();  // s, S η̇, C η̇
+  Vec3 s = fem::first_moment(body.D), S_dot = Vec3::Zero(), C_dot = Vec3::Zero();  // s, S η̇, C η̇
   Mat3 J = body.D.bottomRightCorner<3, 3>(), J_dot = Mat3::Zero();
   if (nonlinearity == Nonlinearity::full && integrals != nullptr) {
     Vec6 half = Vec6::Zero(), rate = Vec6::Zero();  // J − J0 and J̇

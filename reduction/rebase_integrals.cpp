@@ -1,5 +1,6 @@
 #include <vector>
 
+#include "fem/rigid_motion.hpp"
 #include "reduction/body_terms.hpp"
 
 // Motion relative to x_Q: χ_i = ψ_i − t_i − r_i × l', l' = x − x_Q, [t_i; r_i] = Φ_i; then ψ_k' = Σ_i V_ik χ_i.
@@ -81,7 +82,7 @@ ShapeIntegrals rebased(const ReducedBody& body, const Vec3& x_Q, const Mat6X& Ph
     J0 -= old.nodes.J;
   }
   const double m = body.D(0, 0);
-  const Vec3 d = x_Q - body.reference, s0(body.D(5, 1), body.D(3, 2), body.D(4, 0)), s = s0 - m * d;
+  const Vec3 d = x_Q - body.reference, s0 = fem::first_moment(body.D), s = s0 - m * d;
   const Mat3 P = moments(2.0 * J0, Vec3::Zero()) - d * s0.transpose() - s0 * d.transpose() + m * d * d.transpose();
 
   std::vector<Mat3> F(static_cast<std::size_t>(n)), R(static_cast<std::size_t>(n));  // ∫ ψ_i l'ᵀ, r̃_i

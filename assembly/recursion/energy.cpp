@@ -1,4 +1,5 @@
 #include "assembly/recursion/sweeps.hpp"
+#include "fem/rigid_motion.hpp"
 #include "fem/rotation.hpp"
 
 namespace tenon::assembly {
@@ -38,10 +39,8 @@ Energy energy(const Multibody& system, const Sweeps& sweeps, const VectorXd& q, 
       e.kinetic += 0.5 * b.inertia[j] * eta_dot[n + j] * eta_dot[n + j];
       e.elastic += 0.5 * b.stiffness[j] * delta[j] * delta[j];
     }
-    // Σ m (world place) = m r + R s; the s block of M_m^rr: [m, −s̃; s̃, J]
-    const auto M_rr = s.M.bottomRightCorner<6, 6>();
-    const Vec3 first_moment(M_rr(5, 1), M_rr(3, 2), M_rr(4, 0));
-    e.gravity -= system.gravity.dot(M_rr(0, 0) * s.world.r + s.world.R * first_moment);
+    const Mat6 M_rr = s.M.bottomRightCorner<6, 6>();  // Σ m (world place) = m r + R s
+    e.gravity -= system.gravity.dot(M_rr(0, 0) * s.world.r + s.world.R * fem::first_moment(M_rr));
   }
   return e;
 }

@@ -1,6 +1,7 @@
 #include "assembly/recursion/port_motion.hpp"
 #include "assembly/recursion/stiffening.hpp"
 #include "assembly/recursion/sweep_kernels.hpp"
+#include "fem/rigid_motion.hpp"
 #include "fem/rotation.hpp"
 #include "reduction/body_terms.hpp"
 
@@ -27,7 +28,7 @@ void set_body_terms(const HingedBody& b, const double* eta, const double* eta_do
     reduction::body_terms(body, integrals, reduction::Nonlinearity::full, eta, eta_dot, w, s.M, s.b);
     return;
   }
-  const Vec3 moment(body.D(5, 1), body.D(3, 2), body.D(4, 0));  // D = [m, −s̃; s̃, J]
+  const Vec3 moment = fem::first_moment(body.D);
   const Mat3 J = body.D.bottomRightCorner<3, 3>();
   for (Index i = 0; i < n; ++i)  // centrifugal load on the modes, −½ ωᵀ J1_i ω
     s.b[i] = integrals ? -0.5 * w.dot(reduction::symmetric3(integrals->J1.col(i)) * w) : 0.0;
