@@ -6,25 +6,6 @@ namespace tenon::assembly {
 
 using Eigen::VectorXd;
 
-namespace {
-
-// Speeds moved so that the loops do not open: J v = 0 by the least change in the metric of M̂.
-void close_speeds(Dynamics& dynamics, ImplicitWork& work, MotionState& state) {
-  for (int pass = 0; pass < 4; ++pass) {
-    set_state(*dynamics.system, state.q, state.v, dynamics.sweeps);
-    closure_rows(*dynamics.system, dynamics.sweeps, state.q, state.v, dynamics.rows);
-    work.gap_left = dynamics.rows.gap.cwiseAbs().maxCoeff();
-    const double size = std::max(1e-300, state.v.cwiseAbs().maxCoeff() * dynamics.rows.length);
-    if (dynamics.rows.rate.cwiseAbs().maxCoeff() <= 1e-14 * size) return;
-    dynamics.rows.gamma = dynamics.rows.rate;
-    work.x.setZero();
-    close(dynamics.rows, work.inertia, work.x, work.change);
-    state.v += work.x;
-  }
-}
-
-}  // namespace
-
 void generalized_alpha_step(Dynamics& dynamics, double t, double h, const ImplicitOptions& options, ImplicitWork& work,
                             ImplicitState& state) {
   const Multibody& system = *dynamics.system;
@@ -68,7 +49,7 @@ void generalized_alpha_step(Dynamics& dynamics, double t, double h, const Implic
   work.v_dot = ((1.0 - alpha_m) * work.a + alpha_m * state.a - alpha_f * state.v_dot) / (1.0 - alpha_f);
   state.v_dot = work.v_dot;
   state.a = work.a;
-  if (dynamics.loops()) close_speeds(dynamics, work, state.motion);
+  if (dynamics.loops()) close_speeds(dynamics, dynamics.sweeps, work, state.motion);
 }
 
 }  // namespace tenon::assembly

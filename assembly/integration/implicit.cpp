@@ -41,6 +41,21 @@ double correction(Dynamics& dynamics, double per_gap, ImplicitWork& work, Vector
   return work.x.dot(work.delta - work.r);
 }
 
+void close_speeds(Dynamics& dynamics, Sweeps& sweeps, ImplicitWork& work, MotionState& state) {
+  for (int pass = 0; pass < 4; ++pass) {
+    set_state(*dynamics.system, state.q, state.v, sweeps);
+    closure_rows(*dynamics.system, sweeps, state.q, state.v, dynamics.rows);
+    work.gap_left = dynamics.rows.gap.cwiseAbs().maxCoeff();
+    const double size = std::max(1e-300, state.v.cwiseAbs().maxCoeff() * dynamics.rows.length);
+    if (dynamics.rows.rate.cwiseAbs().maxCoeff() <= 1e-14 * size) return;
+    dynamics.rows.gamma = dynamics.rows.rate;
+    work.x.setZero();
+    close(dynamics.rows, work.inertia, work.x, work.change);
+    state.v += work.x;
+  }
+  set_state(*dynamics.system, state.q, state.v, sweeps);
+}
+
 bool Convergence::reached(double size2) {
   constexpr double round_off = 1e-11;  // corrections that shrink no more below this share are round-off
   const double size = std::sqrt(std::abs(size2));

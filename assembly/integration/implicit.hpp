@@ -66,6 +66,10 @@ void factor(Dynamics& dynamics, const MotionState& state, const ImplicitTerms& t
 /// x·M̂ x.
 double correction(Dynamics& dynamics, double per_gap, ImplicitWork& work, Eigen::VectorXd& force);
 
+/// Moves the speeds of a state so that the loops do not open, J v = 0, by the least change in the metric of M̂; sets the
+/// sweeps to it.
+void close_speeds(Dynamics& dynamics, Sweeps& sweeps, ImplicitWork& work, MotionState& state);
+
 /// Decides by the sizes x·M̂x of corrections (as energies) when to stop.
 struct Convergence {
   double t, h, tolerance;

@@ -183,18 +183,10 @@ void midpoint_step(Dynamics& dynamics, double t, double h, const ImplicitOptions
     apply();
     if (last) break;
   }
-  for (int pass = 0; pass < 4 && dynamics.loops(); ++pass) {  // speeds that keep the loops closed
-    closure_rows(system, work.end, to.q, to.v, dynamics.rows);
-    work.gap_left = dynamics.rows.gap.cwiseAbs().maxCoeff();
-    const double size = std::max(1e-300, to.v.cwiseAbs().maxCoeff() * dynamics.rows.length);
-    if (dynamics.rows.rate.cwiseAbs().maxCoeff() <= 1e-14 * size) break;
-    dynamics.rows.gamma = dynamics.rows.rate;
-    work.x.setZero();
-    close(dynamics.rows, work.inertia, work.x, work.change);
-    to.v += work.x;
-    set_state(system, to.q, to.v, work.end);
+  if (dynamics.loops()) {
+    close_speeds(dynamics, work.end, work, to);
+    dynamics.lambda = work.impulse / h;
   }
-  if (dynamics.loops()) dynamics.lambda = work.impulse / h;
   state.v_dot = (to.v - from.v) / h;
   state.motion.q = to.q;
   state.motion.v = to.v;
