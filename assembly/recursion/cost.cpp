@@ -109,20 +109,7 @@ Multibody beam_chain(int bodies, int modes) {
                                    .torsion = false,
                                    .samples = 0};
   const auto link = std::make_shared<const ReducedBody>(titop::beam_body("link", strip, options));
-  Multibody chain;
-  for (int k = 0; k < bodies; ++k) {
-    HingedBody b;
-    b.name = fmt::format("link{}", k + 1);
-    b.body = link;
-    b.deformation = Deformation::dropped;
-    b.parent = k - 1;
-    b.inner_port = k == 0 ? -1 : 1;
-    b.outer_port = 0;
-    b.kind = HingeKind::revolute;
-    chain.bodies.push_back(std::move(b));
-  }
-  index(chain);
-  return chain;
+  return serial_chain(link, bodies, Deformation::dropped);
 }
 
 }  // namespace tenon::assembly

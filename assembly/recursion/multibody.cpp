@@ -50,6 +50,23 @@ void index(Multibody& system) {
   }
 }
 
+Multibody serial_chain(const std::shared_ptr<const ReducedBody>& link, int links, Deformation deformation) {
+  Multibody chain;
+  for (int k = 0; k < links; ++k) {
+    HingedBody b;
+    b.name = fmt::format("link{}", k + 1);
+    b.body = link;
+    b.deformation = deformation;
+    b.parent = k - 1;
+    b.inner_port = k == 0 ? -1 : 1;
+    b.outer_port = 0;
+    b.kind = HingeKind::revolute;
+    chain.bodies.push_back(std::move(b));
+  }
+  index(chain);
+  return chain;
+}
+
 MotionState rest_state(const Multibody& system) {
   MotionState state{VectorXd::Zero(system.nq), VectorXd::Zero(system.nv)};
   for (std::size_t k = 0; k < system.bodies.size(); ++k)

@@ -63,6 +63,10 @@ struct Multibody {
 /// ModelError naming the body.
 void index(Multibody& system);
 
+/// Equal links in a row on revolute hinges about z, each by its port 0 on port 1 of the one before, the first on the
+/// ground.
+Multibody serial_chain(const std::shared_ptr<const ReducedBody>& link, int links, Deformation deformation);
+
 /// ϑ and χ of the whole system.
 struct MotionState {
   Eigen::VectorXd q;  ///< nq

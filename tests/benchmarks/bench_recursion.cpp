@@ -2,10 +2,7 @@
 // composite against articulated bodies. Run on one core; ratios are of one run.
 #include <benchmark/benchmark.h>
 
-#include <Eigen/Cholesky>
-#include <cmath>
-
-#include "assembly/recursion/sweeps.hpp"
+#include "assembly/recursion/cost.hpp"
 #include "chain.hpp"
 
 using namespace tenon;
@@ -14,13 +11,6 @@ using bench::bent;
 using bench::chain;
 
 namespace {
-
-/// Multiplications and additions of one body by section 8.2 of the paper.
-double articulated_flops(double n) {
-  const double inertia =
-      n <= 7 ? 5.0 / 3.0 * n * n * n + 23.0 * n * n + 1312.0 / 3.0 * n + 344.0 : 25.0 * n * n + 437.0 * n + 1017.0;
-  return inertia + (2.0 * n * n + 49.0 * n + 99.0) + (37.0 * n + 94.0);
-}
 
 void articulated(benchmark::State& state) {
   const auto bodies = static_cast<int>(state.range(0)), modes = static_cast<int>(state.range(1));
@@ -37,7 +27,8 @@ void articulated(benchmark::State& state) {
   }
   const double calls = static_cast<double>(state.iterations()) * bodies;
   state.counters["per_body"] = benchmark::Counter(calls, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
-  state.counters["flops/s"] = benchmark::Counter(calls * articulated_flops(modes), benchmark::Counter::kIsRate);
+  state.counters["flops/s"] =
+      benchmark::Counter(calls * assembly::articulated_flops(1, modes).total(), benchmark::Counter::kIsRate);
 }
 
 void inverse(benchmark::State& state) {
@@ -60,17 +51,12 @@ void composite(benchmark::State& state) {
   const Multibody mb = chain(bodies, modes);
   const assembly::MotionState s = bent(mb);
   assembly::Sweeps sweeps = make_sweeps(mb);
-  Eigen::VectorXd T(mb.nv), bias(mb.nv), zero = Eigen::VectorXd::Zero(mb.nv), v_dot(mb.nv);
-  Eigen::MatrixXd mass(mb.nv, mb.nv);
-  Eigen::LLT<Eigen::MatrixXd> factor(mb.nv);
+  Eigen::VectorXd T(mb.nv), v_dot(mb.nv);
+  Eigen::MatrixXd mass;
   for (auto _ : state) {
     set_state(mb, s.q, s.v, sweeps);
     passive_forces(mb, s.q, s.v, T);
-    inverse_dynamics(mb, sweeps, zero, bias);
-    composite_mass_matrix(mb, sweeps, mass);
-    factor.compute(mass);
-    v_dot = T - bias;
-    factor.solveInPlace(v_dot);
+    composite_forward_dynamics(mb, sweeps, T, mass, v_dot);
     benchmark::DoNotOptimize(v_dot.data());
   }
   state.counters["per_body"] = benchmark::Counter(static_cast<double>(state.iterations()) * bodies,

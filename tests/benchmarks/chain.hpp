@@ -27,22 +27,10 @@ inline std::shared_ptr<const reduction::ReducedBody> link(int modes) {
 
 /// Links on revolute hinges; the axis of every second one is tilted about x.
 inline assembly::Multibody chain(int bodies, int modes) {
-  assembly::Multibody mb;
-  const auto body = link(modes);
+  assembly::Multibody mb = serial_chain(link(modes), bodies, assembly::Deformation::dropped);
   mb.gravity = fem::Vec3(0.0, 0.0, -9.81);
-  for (int k = 0; k < bodies; ++k) {
-    assembly::HingedBody b;
-    b.name = "link";
-    b.body = body;
-    b.deformation = assembly::Deformation::dropped;
-    b.parent = k - 1;
-    b.inner_port = 1;
-    b.outer_port = 0;
-    b.kind = assembly::HingeKind::revolute;
-    if (k % 2 == 1) b.inner_axes = b.outer_axes = fem::Mat3(Eigen::AngleAxisd(tilt, fem::Vec3::UnitX()));
-    mb.bodies.push_back(b);
-  }
-  assembly::index(mb);
+  for (std::size_t k = 1; k < mb.bodies.size(); k += 2)
+    mb.bodies[k].inner_axes = mb.bodies[k].outer_axes = fem::Mat3(Eigen::AngleAxisd(tilt, fem::Vec3::UnitX()));
   return mb;
 }
 

@@ -113,21 +113,11 @@ TEST(Implicit, LongArmIsStableFarBeyondItsFastestMode) {
                                                                                   .J = 1.14e-7,
                                                                                   .Ip = 1.35e-7}));
   ASSERT_EQ(link->n(), 10);
-  Multibody mb;
-  for (int k = 0; k < 50; ++k) {
-    HingedBody b;
-    b.name = fmt::format("link{}", k + 1);
-    b.body = link;
-    b.deformation = Deformation::dropped;
-    b.parent = k - 1;
-    b.inner_port = k == 0 ? -1 : 1;
-    b.outer_port = 0;
-    b.kind = HingeKind::revolute;
+  Multibody mb = serial_chain(link, 50, Deformation::dropped);
+  for (HingedBody& b : mb.bodies) {
     b.stiffness = VectorXd::Constant(1, 2e4);
     b.damping = VectorXd::Constant(1, 2e3);
-    mb.bodies.push_back(b);
   }
-  index(mb);
   const double fastest = link->omega.maxCoeff(), h = 1e4 / fastest;
   Dynamics dynamics = make_dynamics(
       mb, [&](double t, const MotionState&, Sweeps&, VectorXd& T) { T[10] += t < 20.0 * h ? 500.0 : 0.0; });
