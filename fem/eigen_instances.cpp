@@ -1,0 +1,3 @@
+#include "fem/eigen_instances.hpp"
+
+TENON_EIGEN_INSTANCES(template)
