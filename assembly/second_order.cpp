@@ -7,9 +7,8 @@
 
 #include "assembly/disjoint.hpp"
 #include "assembly/kinematics.hpp"
-#include "assembly/rank.hpp"
+#include "assembly/normal_basis.hpp"
 #include "fem/error.hpp"
-#include "reduction/roots.hpp"
 
 namespace tenon::assembly {
 
@@ -20,66 +19,36 @@ using Eigen::VectorXd;
 
 namespace {
 
-[[noreturn]] void refuse_massless(const Network& network, const DisjointSystem& d, const VectorXd& motion) {
+// Bodies that take part in a motion over q.
+std::string moving_bodies(const Network& network, const DisjointSystem& d, const VectorXd& motion) {
   std::set<std::string> names;
   const double largest = motion.cwiseAbs().maxCoeff();
   for (std::size_t k = 0; k < network.bodies.size(); ++k)
     if (motion.segment(d.offset[k], 6 + network.bodies[k].n()).cwiseAbs().maxCoeff() > 0.1 * largest)
       names.insert("'" + network.bodies[k].name + "'");
-  throw ModelError(
-      fmt::format("the network can move with neither mass nor stiffness; moving: {}", fmt::join(names, ", ")),
-      "Give that motion an inertia, a spring or a joint that holds it");
+  return fmt::format("{}", fmt::join(names, ", "));
 }
-
-VectorXd row_lengths(const MatrixXd& rows) { return rows.rowwise().norm(); }
 
 }  // namespace
 
-// 1. null(G) in scaled coordinates q̂ (q = S q̂):                        q̂ = N0 x
-// 2. null(F N0) by the rows' directions alone: rigid motions X, rest Y:   q̂ = X a + Y y
-// 3. F Y P = Q R, y = P R⁻¹ z gives unit stiffness:                       K = zᵀz
-// 4. W X = Q_x R_x, a = R_x⁻¹ α − (W X)⁺ W Y y: unit rigid mass, M-orthogonal
-// 5. SVD of what remains of W: (1 − Q_x Q_xᵀ) W Y P R⁻¹ = U Σ Vᵀ, z = V ζ:  M = Σ², so ω = 1/σ
 SecondOrderSystem second_order(const Network& network) {
   DisjointSystem d = disjoint(network);
+  const NormalBasis basis = normal_basis({d.G, d.stiffness_root, d.mass_root, d.scale},
+                                         [&](const VectorXd& motion) { return moving_bodies(network, d, motion); });
   SecondOrderSystem s;
-  const auto S = d.scale.asDiagonal();
-  const MatrixXd G = d.G * S, F = d.stiffness_root * S, W = d.mass_root * S;
-  const RowSpace held = row_space(G, row_lengths(G), "the joint rows");
-  s.rank = held.rank;
-  s.redundant = static_cast<int>(held.redundant.size());
-  for (const int i : held.redundant) s.redundant_rows.push_back(d.row_names[static_cast<std::size_t>(i)]);
-  s.rank_gap = held.gap;
-  s.G = row_lengths(G).cwiseInverse().asDiagonal() * d.G;
+  s.rank = basis.rank;
+  s.redundant = static_cast<int>(basis.redundant.size());
+  for (const int i : basis.redundant) s.redundant_rows.push_back(d.row_names[static_cast<std::size_t>(i)]);
+  s.rank_gap = basis.rank_gap;
+  s.rigid = basis.rigid;
+  s.massless = basis.massless;
+  s.N = basis.N;
+  s.G = basis.G;
 
-  const RowSpace stiff = row_space(F * held.null, row_lengths(F), "the stiffness");
-  const MatrixXd X = held.null * stiff.null, Y = held.null * stiff.range;
-  const Index r = X.cols(), f = Y.cols(), n = r + f;
-  const VectorXd mass_lengths = row_lengths(W);
-  if (row_rank(W * X, mass_lengths, "the mass of the rigid motions") < r)
-    refuse_massless(network, d, X * row_space(W * X, mass_lengths, "the mass of the rigid motions").null.col(0));
-  s.rigid = static_cast<int>(r);
-  s.massless = static_cast<int>(n) - row_rank(W * held.null, mass_lengths, "the mass");
-
-  const MatrixXd Z = graded_qr(F * Y).times_inverse(Y);
-  const GradedQR rigid = graded_qr(W * X, W * Z);
-  const MatrixXd X_unit = rigid.times_inverse(X);
-  const MatrixXd Z_free = Z - X_unit * rigid.Qt_apply.topRows(r);
-  MatrixXd N(d.scale.size(), n);
-  VectorXd sigma = VectorXd::Zero(f);
-  N.leftCols(r) = X_unit;
-  if (f > 0) {
-    const MatrixXd rest = rigid.Qt_apply.bottomRows(W.rows() - r);
-    const reduction::ThinSvd svd = reduction::thin_svd(rest);
-    sigma.head(svd.sigma.size()) = svd.sigma;
-    sigma.tail(s.massless).setZero();
-    N.rightCols(f) = Z_free * svd.V;
-  }
-  s.N = S * N;
-
+  const Index n = s.N.cols(), f = basis.sigma.size();
   VectorXd stiffness = VectorXd::Zero(n), mass = VectorXd::Ones(n);  // n = 0: nothing can move
   stiffness.tail(f).setOnes();
-  mass.tail(f) = sigma.cwiseAbs2();
+  mass.tail(f) = basis.sigma.cwiseAbs2();
   s.K = stiffness.asDiagonal();
   s.M = mass.asDiagonal();
   const MatrixXd E = d.damping_root * s.N;
