@@ -30,4 +30,9 @@ enum class Nonlinearity {
 void body_terms(const ReducedBody& body, const ShapeIntegrals* integrals, Nonlinearity nonlinearity, const double* eta,
                 const double* eta_dot, const Vec3& omega, Eigen::Ref<Eigen::MatrixXd> M, Eigen::Ref<Eigen::VectorXd> b);
 
+/// The b of `ruthless` alone, whose M stays M_m(0): b_f,i = −½ ωᵀ J1_i ω − ωᵀ A_i ω (0 without integrals),
+/// b_v = ω × (ω × s0), b_w = ω × J0 ω. No heap allocation. @param b  n+6, or 6 for a rigid body
+void ruthless_gyroscopics(const ReducedBody& body, const ShapeIntegrals* integrals, const Vec3& omega,
+                          Eigen::Ref<Eigen::VectorXd> b);
+
 }  // namespace tenon::reduction

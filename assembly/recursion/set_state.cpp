@@ -28,12 +28,7 @@ void set_body_terms(const HingedBody& b, const double* eta, const double* eta_do
     reduction::body_terms(body, integrals, reduction::Nonlinearity::full, eta, eta_dot, w, s.M, s.b);
     return;
   }
-  const Vec3 moment = fem::first_moment(body.D);
-  const Mat3 J = body.D.bottomRightCorner<3, 3>();
-  for (Index i = 0; i < n; ++i)  // centrifugal load on the modes, −½ ωᵀ J1_i ω
-    s.b[i] = integrals ? -0.5 * w.dot(reduction::symmetric3(integrals->J1.col(i)) * w) : 0.0;
-  s.b.segment<3>(n) = w.cross(w.cross(moment));
-  s.b.tail<3>() = w.cross(Vec3(J * w));
+  reduction::ruthless_gyroscopics(body, integrals, w, s.b);
 }
 
 // Where a body hangs: pose, twist and a_mR from the state of its parent, eqs (45), (25), for any hinge and nodes that

@@ -69,6 +69,28 @@ TEST(Recursion, ArticulatedAndCompositeEqualTheDenseOperators) {
 }
 
 // Eqs (51)–(56) with dense blocks: R, P, D, G, K, Ψ, and what the lemmas say of them.
+// A body whose deformation is dropped, of nodes with rotary inertia: b_m is that of the node sums at rest, eq (37).
+TEST(Recursion, DroppedDeformationKeepsTheGyroscopicForcesOfRest) {
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    const tests::LumpedBody lumped = tests::random_lumped(seed, 7, 4, true, true);
+    HingedBody b;
+    b.name = "lumped";
+    b.body = std::make_shared<const ReducedBody>(lumped.body);
+    b.deformation = Deformation::dropped;
+    b.kind = HingeKind::spherical;
+    b.outer_port = 0;
+    Multibody mb;
+    mb.bodies = {b};
+    index(mb);
+    const MotionState state = RandomMultibody(seed).state(mb);
+    Sweeps sweeps = make_sweeps(mb);
+    set_state(mb, state.q, state.v, sweeps);
+    const VectorXd still = VectorXd::Zero(4);
+    const tests::NodeSums at_rest = tests::node_sums(lumped, still, still, sweeps.bodies[0].V.tail<3>());
+    EXPECT_LT(difference(sweeps.bodies[0].b, at_rest.b), 1e-13) << seed;
+  }
+}
+
 TEST(Recursion, LemmasOfThePaperHold) {
   double worst51 = 0.0, worst61 = 0.0, worst62 = 0.0, worst63 = 0.0, worst_split = 0.0;
   for (unsigned seed = 1; seed <= systems; ++seed) {
