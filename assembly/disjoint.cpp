@@ -57,6 +57,12 @@ struct Builder {
   RowVectorXd motion(const std::optional<PortRef>& at, int direction, const std::optional<int>& joint) const {
     return at ? RowVectorXd(port(*at).row(direction)) : angle(network.joints[static_cast<std::size_t>(*joint)]);
   }
+
+  // the next row of G, and the unit of what it transmits
+  void name_row(std::string row, const char* unit) const {
+    d.row_names.push_back(std::move(row));
+    d.row_units.emplace_back(unit);
+  }
 };
 
 // E with EᵀE = C
@@ -98,26 +104,23 @@ void scale_body(const Builder& b, int k) {
   b.d.scale.segment(o + 6, body.n()) = natural_amplitudes(body, length);
 }
 
-constexpr const char* direction[6] = {"translation x", "translation y", "translation z",
-                                      "rotation x",    "rotation y",    "rotation z"};
-
 void add_joint_rows(const Builder& b, const Joint& joint, Rows& G) {
   const MatrixXd relative = b.relative(joint);
-  const auto label = [&](const char* what) {
-    b.d.row_names.push_back(fmt::format("joint '{}', {}", joint.name, what));
+  const auto label = [&](const char* what, const char* unit) {
+    b.name_row(fmt::format("joint '{}', {}", joint.name, what), unit);
   };
   if (joint.kind == JointKind::weld) {
     G.next(6) = relative;
-    for (const char* what : direction) label(what);
+    for (std::size_t i = 0; i < 6; ++i) label(direction_names[i], i < 3 ? "N" : "N m");
     return;
   }
   const Vec3 axis = joint_axis(b.network, b.d.placement, joint), e1 = axis.unitOrthogonal(), e2 = axis.cross(e1);
   G.next(3) = relative.topRows<3>();
-  for (int i = 0; i < 3; ++i) label(direction[i]);
+  for (std::size_t i = 0; i < 3; ++i) label(direction_names[i], "N");
   G.next(1) = e1.transpose() * relative.bottomRows<3>();
   G.next(1) = e2.transpose() * relative.bottomRows<3>();
-  label("rotation across the axis");
-  label("second rotation across the axis");
+  label("rotation across the axis", "N m");
+  label("second rotation across the axis", "N m");
 }
 
 }  // namespace
@@ -164,15 +167,13 @@ DisjointSystem disjoint(const Network& network) {
   }
   for (const PortRef& ref : network.ground) {
     G.next(6) = b.port(ref);
-    for (int i = 0; i < 6; ++i)
-      d.row_names.push_back(fmt::format("ground of {}, {}", name(network, ref), direction[i]));
+    for (std::size_t i = 0; i < 6; ++i)
+      b.name_row(fmt::format("ground of {}, {}", name(network, ref), direction_names[i]), i < 3 ? "N" : "N m");
   }
   d.mass_root = W.matrix.topRows(W.used);
   d.damping_root = E.matrix.topRows(E.used);
   d.stiffness_root = F.matrix.topRows(F.used);
   d.G = G.matrix.topRows(G.used);
-  for (const std::string& row : d.row_names)
-    d.row_units.emplace_back(row.find("translation") != std::string::npos ? "N" : "N m");
 
   d.B = MatrixXd::Zero(n, static_cast<Index>(network.inputs.size()));
   for (std::size_t i = 0; i < network.inputs.size(); ++i) {

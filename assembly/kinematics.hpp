@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 
 #include "assembly/network.hpp"
 #include "titop/state_space.hpp"
@@ -8,6 +9,9 @@
 /// What every route of assembly says about a network in the same words: port motions, joint axes, lumped masses and the
 /// names of channels.
 namespace tenon::assembly {
+
+inline constexpr std::array<const char*, 6> direction_names{"translation x", "translation y", "translation z",
+                                                            "rotation x",    "rotation y",    "rotation z"};
 
 /// A length to weigh rotations against translations: the scene's size, 1 m for a scene that is a point.
 double natural_length(const Placement& placement);

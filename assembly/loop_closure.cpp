@@ -22,8 +22,6 @@ using titop::StateSpace;
 
 namespace {
 
-constexpr const char* direction_names[6] = {"translation x", "translation y", "translation z",
-                                            "rotation x",    "rotation y",    "rotation z"};
 constexpr double nothing = 1e-12;  // motion in natural sizes, or of its sides when relative: none but round-off
 
 // Axes of a cut: columns; the third is that of a revolute joint.
@@ -43,7 +41,7 @@ bool revolute(const Network& network, const Cut& cut) {
 
 std::string cut_name(const Network& network, const Cut& cut) {
   return cut.joint >= 0 ? fmt::format("joint '{}'", network.joints[static_cast<std::size_t>(cut.joint)].name)
-                            : "ground of " + name(network, cut.ground);
+                        : "ground of " + name(network, cut.ground);
 }
 
 // The open tree with inputs and outputs of the closed network, then six wrench channels of each cut (on its child side,
@@ -74,7 +72,7 @@ StateSpace with_cuts(const Network& network, const OpenLoops& open, const PortTr
       const std::string what = turns && d == 5   ? "rotation about the axis"
                                : turns && d == 4 ? "second rotation across the axis"
                                : turns && d == 3 ? "rotation across the axis"
-                                                 : direction_names[d];
+                                                 : direction_names[static_cast<std::size_t>(d)];
       in.push_back({fmt::format("{}, {}", cut_name(network, cut), what), d < 3 ? "N" : "N m"});
       out.push_back({in.back().name, d < 3 ? "m/s²" : "rad/s²"});
     }

@@ -25,12 +25,12 @@ double of(const Reactions& r, const std::string& name) {
 TEST(Reactions, StaticsOfACantilever) {
   Network net;
   net.bodies = {rigid_bar("inner"), rigid_bar("outer")};
-  net.joints = {weld("middle", {0, 1}, {1, 0})};
+  net.joints = {weld("translation_stage", {0, 1}, {1, 0})};  // a name is no direction
   net.ground = {{0, 0}};
   net.inputs = {{"push", PortRef{1, 1}, 1, {}}};
   const Reactions r = reactions(net, second_order(net), 0.0);
-  EXPECT_NEAR(of(r, "joint 'middle', translation y"), -1.0, 1e-12);
-  EXPECT_NEAR(of(r, "joint 'middle', rotation z"), -1.0, 1e-12);  // arm 1 m
+  EXPECT_NEAR(of(r, "joint 'translation_stage', translation y"), -1.0, 1e-12);
+  EXPECT_NEAR(of(r, "joint 'translation_stage', rotation z"), -1.0, 1e-12);  // arm 1 m
   EXPECT_NEAR(of(r, "ground of inner.p, translation y"), -1.0, 1e-12);
   EXPECT_NEAR(of(r, "ground of inner.p, rotation z"), -2.0, 1e-12);  // arm 2 m
   EXPECT_THAT(r.determinate, ::testing::Each(true));
