@@ -61,7 +61,9 @@ class Text {
   void add(const ReducedSource& reduced) { (*this)(reduced.file); }
   void add(const BeamSource& b) { (*this)(b.model, b.from, b.to, b.section, b.elements, b.modes, b.planar); }
   void add(const RigidSource&) {}
-  void add(const reduction::ReduceOptions& o) { (*this)(o.basis, o.modes, o.band, o.all_modes, o.zeta, o.keep_shapes); }
+  void add(const reduction::ReduceOptions& o) {
+    (*this)(o.basis, o.modes, o.band, o.all_modes, o.zeta, o.keep_shapes, o.nonlinear);
+  }
 };
 
 }  // namespace

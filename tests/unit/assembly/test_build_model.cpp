@@ -206,6 +206,10 @@ TEST_F(BuildModel, FingerprintsDifferWhereBodiesDo) {
                                  {"    fix:", "    reduction: {modes: 7}\n    fix:"},
                                  {"    fix:", "    reduction: rigid\n    fix:"}})
     EXPECT_NE(print_of(with(from, to)), own) << to;
+  const Scene scene = read_scene(folder_.write("scene.yaml", scene_text));
+  BodyPlan moving = plan(scene).bodies[0];
+  moving.options.nonlinear = true;  // shape integrals
+  EXPECT_NE(fingerprint(scene.bodies[0], moving), own);
 }
 
 }  // namespace
