@@ -123,8 +123,9 @@ void check_steady(const Network& network, const NetworkMultibody& bodies, const 
   const LinearMotion other = linearise(system, then);
   const VectorXd d = linear.M.diagonal().cwiseSqrt();
   const MatrixXd dd = d * d.transpose();
+  const double least = 1e-8 * d.cwiseInverse().maxCoeff();  // rows that move nothing are round-off
   const auto row_size = [&](const MatrixXd& rows) -> MatrixXd {
-    return (rows * d.cwiseInverse().asDiagonal()).rowwise().lpNorm<Eigen::Infinity>() * d.transpose();
+    return (rows * d.cwiseInverse().asDiagonal()).rowwise().lpNorm<Eigen::Infinity>().cwiseMax(least) * d.transpose();
   };
   const Imbalance a = imbalance(system, now), b = imbalance(system, then);
   if (differ(other.M, linear.M, dd) || differ(other.C, linear.C, w * dd + linear.C.cwiseAbs()) ||

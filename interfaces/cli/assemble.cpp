@@ -9,17 +9,14 @@
 #include "assembly/second_order.hpp"
 #include "fem/error.hpp"
 #include "fem/formats/atomic_file.hpp"
+#include "interfaces/cli/assemble.hpp"
 #include "interfaces/cli/commands.hpp"
 #include "interfaces/cli/output.hpp"
 
 namespace tenon::cli {
 namespace {
 
-struct Options {
-  std::filesystem::path scene, output;
-  std::optional<double> reactions_hz;
-  bool json = false;
-};
+using Options = AssembleOptions;
 
 /// At the frequency asked for; nothing when none was.
 std::optional<assembly::Reactions> reactions_of(const Options& options, const assembly::Network& network,
@@ -75,22 +72,6 @@ void print_people(const assembly::Reactions& r, double frequency_hz, const std::
   if (shown < inputs.size()) print(wrapped(fmt::format("{} more inputs: --json", inputs.size() - shown)));
 }
 
-Json rows_of(const Eigen::MatrixXd& matrix) {
-  Json rows = Json::array();
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-    Json row = Json::array();
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j) row.push_back(matrix(i, j));
-    rows.push_back(std::move(row));
-  }
-  return rows;
-}
-
-Json channels(const std::vector<titop::Channel>& list) {
-  Json names = Json::array();
-  for (const titop::Channel& channel : list) names.push_back({{"name", channel.name}, {"unit", channel.unit}});
-  return names;
-}
-
 Json summary(const Options& options, const assembly::SecondOrderSystem& system, const assembly::SystemModes& modes,
              const titop::StateSpace& ss) {
   Json object{{"source", options.scene.string()}, {"states", ss.order()},
@@ -104,26 +85,6 @@ Json summary(const Options& options, const assembly::SecondOrderSystem& system, 
     object["damping_ratios"].push_back(modes.zeta[k]);
   }
   return object;
-}
-
-/// The state space for other programs: A, B, C, D row by row, SI, named channels.
-void write_system(const std::filesystem::path& path, Json object, const titop::StateSpace& ss) {
-  object["format"] = "tenon linear system";
-  object["version"] = 1;
-  object["units"] = "SI";
-  for (const auto& [name, matrix] :
-       {std::pair("A", &ss.A), std::pair("B", &ss.B), std::pair("C", &ss.C), std::pair("D", &ss.D)})
-    object[name] = rows_of(*matrix);
-  fem::AtomicFile file(path);
-  file.stream() << object.dump() << '\n';
-  file.commit();
-}
-
-void print_channels(const char* title, const std::vector<titop::Channel>& list) {
-  Table table({std::string("<") + title, "<unit"});
-  for (const titop::Channel& channel : list) table.row({channel.name, channel.unit});
-  print("");
-  print(table);
 }
 
 void print_people(const Options& options, const assembly::SecondOrderSystem& system, const assembly::SystemModes& modes,
@@ -165,18 +126,57 @@ int run(const Options& options) {
 
 }  // namespace
 
+Json rows_of(const Eigen::MatrixXd& matrix) {
+  Json rows = Json::array();
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    Json row = Json::array();
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j) row.push_back(matrix(i, j));
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+Json channels(const std::vector<titop::Channel>& list) {
+  Json names = Json::array();
+  for (const titop::Channel& channel : list) names.push_back({{"name", channel.name}, {"unit", channel.unit}});
+  return names;
+}
+
+void write_system(const std::filesystem::path& path, Json object, const titop::StateSpace& ss) {
+  object["format"] = "tenon linear system";
+  object["version"] = 1;
+  object["units"] = "SI";
+  for (const auto& [name, matrix] :
+       {std::pair("A", &ss.A), std::pair("B", &ss.B), std::pair("C", &ss.C), std::pair("D", &ss.D)})
+    object[name] = rows_of(*matrix);
+  fem::AtomicFile file(path);
+  file.stream() << object.dump() << '\n';
+  file.commit();
+}
+
+void print_channels(const char* title, const std::vector<titop::Channel>& list) {
+  Table table({std::string("<") + title, "<unit"});
+  for (const titop::Channel& channel : list) table.row({channel.name, channel.unit});
+  print("");
+  print(table);
+}
+
 void add_assemble(CLI::App& program, int& status) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<AssembleOptions>();
   CLI::App* command = program.add_subcommand("assemble", "the linear system of a scene: modes and state space");
   command->add_option("SCENE", options->scene, "a scene (.yaml, .json)")->required();
   command->add_option("-o,--output", options->output, "write A, B, C, D with named channels as JSON");
+  CLI::Option* reactions = command
+                               ->add_option("--reactions", options->reactions_hz,
+                                            "what joints and ground transmit at this frequency [Hz]; 0: at rest")
+                               ->check(CLI::NonNegativeNumber);
   command
-      ->add_option("--reactions", options->reactions_hz,
-                   "what joints and ground transmit at this frequency [Hz]; 0: at rest")
-      ->check(CLI::NonNegativeNumber);
+      ->add_flag("--linearise", options->linearise,
+                 "of the recursive model, about the rest, equilibrium or constant spin that `simulation:` gives")
+      ->excludes(reactions);
   command->add_flag("--json", options->json, "one JSON object (without the matrices)");
   command->footer("Example: tenon assemble scene.yaml -o system.json --reactions 0.5");
-  command->callback([options, &status] { status = run(*options); });
+  command->callback([options, &status] { status = options->linearise ? run_linearised(*options) : run(*options); });
 }
 
 }  // namespace tenon::cli

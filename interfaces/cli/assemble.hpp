@@ -1,0 +1,29 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <optional>
+
+#include "interfaces/cli/output.hpp"
+#include "titop/state_space.hpp"
+
+namespace tenon::cli {
+
+struct AssembleOptions {
+  std::filesystem::path scene, output;
+  std::optional<double> reactions_hz;
+  bool linearise = false;
+  bool json = false;
+};
+
+/// `tenon assemble --linearise`.
+int run_linearised(const AssembleOptions& options);
+
+Json rows_of(const Eigen::MatrixXd& matrix);
+Json channels(const std::vector<titop::Channel>& list);
+void print_channels(const char* title, const std::vector<titop::Channel>& list);
+
+/// The state space for other programs: A, B, C, D row by row, SI, named channels.
+void write_system(const std::filesystem::path& path, Json object, const titop::StateSpace& ss);
+
+}  // namespace tenon::cli
