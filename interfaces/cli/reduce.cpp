@@ -15,7 +15,7 @@ namespace {
 struct Options {
   std::filesystem::path scene, output;
   std::string body;
-  bool json = false;
+  bool linear = false, json = false;
 };
 
 const char* const directions[] = {"x", "y", "z", "rx", "ry", "rz"};
@@ -55,6 +55,8 @@ Json to_json(const reduction::ReducedBody& body) {
                            {"max_orthogonality", certificate.max_orthogonality},
                            {"valid_below_hz", hertz(certificate.valid_below)},
                            {"left_out", certificate.left_out}};
+  object["large_motion"] = {{"shape_integrals", body.shape_integrals != nullptr},
+                            {"geometric_stiffness", body.stiffening != nullptr}};
   return object;
 }
 
@@ -103,12 +105,12 @@ void print_people(const reduction::ReducedBody& body) {
 int run(const Options& options) {
   const assembly::Scene scene = assembly::read_scene(options.scene);
   const assembly::SceneBody& body = assembly::body_named(scene, options.body);
-  const assembly::Plan plan = assembly::plan(scene);
+  assembly::BodyPlan plan = assembly::plan(scene).bodies[static_cast<std::size_t>(&body - scene.bodies.data())];
+  plan.options.nonlinear = !options.linear;
   reduction::ReducedBody reduced;
   {
     ProgressBar bar;
-    reduced =
-        assembly::build_body(body, plan.bodies[static_cast<std::size_t>(&body - scene.bodies.data())], bar.callback());
+    reduced = assembly::build_body(body, plan, bar.callback());
   }
   if (!options.output.empty()) reduction::write_body(options.output, reduced);
   if (options.json) {
@@ -129,6 +131,8 @@ void add_reduce(CLI::App& program, int& status) {
   command->add_option("SCENE", options->scene, "a scene (.yaml, .json)")->required();
   command->add_option("--body", options->body, "which body")->required();
   command->add_option("-o,--output", options->output, "write the reduced body, *.body.json");
+  command->add_flag("--linear", options->linear,
+                    "leave out what large motion needs (shape integrals, geometric stiffening)");
   command->add_flag("--json", options->json, "one JSON object");
   command->footer("Example: tenon reduce scene.yaml --body panel -o panel.body.json");
   command->callback([options, &status] { status = run(*options); });
