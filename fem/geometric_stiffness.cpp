@@ -27,10 +27,12 @@ struct GeometricStiffnessOf {
   void operator()(const Tria3& e) const {
     tria3_geometric_stiffness(e, shell(e.section), material(e.material), model.nodes, u, out);
   }
+  void operator()(const PointMass&) const {}  // bear no stress; have no nodes here
+  void operator()(const Spring&) const {}
 };
 
 struct NodesOf {
-  std::span<const int> operator()(const PointMass&) const { return {}; }  // bear no stress
+  std::span<const int> operator()(const PointMass&) const { return {}; }
   std::span<const int> operator()(const Spring&) const { return {}; }
   template <typename Element>
   std::span<const int> operator()(const Element& e) const {
@@ -57,11 +59,7 @@ SparseMatrix geometric_stiffness(const Model& model, const Structure& structure,
     u_e.resize(6 * static_cast<Eigen::Index>(nodes.size()));
     for (std::size_t k = 0; k < nodes.size(); ++k)
       u_e.segment<6>(6 * static_cast<Eigen::Index>(k)) = full.segment<6>(6 * nodes[k]);
-    std::visit(
-        [&](const auto& e) {
-          if constexpr (requires { GeometricStiffnessOf{model, u_e, K}(e); }) GeometricStiffnessOf{model, u_e, K}(e);
-        },
-        element);
+    std::visit(GeometricStiffnessOf{model, u_e, K}, element);
     // T_eᵀ K_e T_e, term by term
     const auto terms = [&](Eigen::Index i) {
       const auto dof = static_cast<std::size_t>(6 * nodes[static_cast<std::size_t>(i / 6)] + static_cast<int>(i % 6));
