@@ -33,8 +33,9 @@ Subspace free_modes(const fem::Structure& structure, const Partition& parts, con
     wanted.count += modes.rigid;
     Count count;
     const ShiftedFactor free =
-        choose_shift(structure.K, structure.M, rigid, structure.dofs.names,
-                     [&](const Factor& ordered) { count.prepare(structure.K, structure.M, ordered); });
+        choose_shift(structure.K, structure.M, rigid, structure.dofs.names, [&](const Factor& ordered) {
+          if (options.certify || options.band) count.prepare(structure.K, structure.M, ordered);
+        });
     modes = solve_modes(structure.K, structure.M, free, rigid, wanted, &count);
   }
   if (modes.rigid > rigid.cols())
