@@ -71,11 +71,11 @@ struct BeamConvergence {
   std::vector<std::vector<double>> error;  ///< per mode
 };
 
-/// Craig-Bampton with inertia relief: 2, 4, 8 .. elements up to twice `most`, with so many modes that the elements
-/// limit it.
+/// Craig-Bampton with inertia relief: 2, 4, 8 .. elements up to 2 max(`most`, 4), 512 at most, with 2n − 2 modes of n
+/// elements, 16 at most.
 BeamConvergence convergence_with_elements(const Ends& ends, int most);
 
-/// The same with 1, 2, 3 .. `most` + 6 modes of 128 elements.
+/// The same with 1, 2, 3 .. max(`most`, 2) + 6 modes of 128 elements.
 BeamConvergence convergence_with_modes(const Ends& ends, int most);
 
 /// The eleven cases of the paper: table 1 (clamped-free, free-clamped) and tables 3 to 11.

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <map>
-
 #include "assembly/scene.hpp"
 
 /// The section `simulation:` of a scene: what large motion needs beyond the linear commands.

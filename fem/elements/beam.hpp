@@ -21,7 +21,7 @@ void beam_matrices(const Beam& beam, const BeamSection& section, const Material&
 /// Geometric stiffness 12×12 of the axial force N that the displacement u causes, with the shapes of `beam_matrices`:
 ///   N ∫ v' v'ᵀ dx over both bending planes and N (Iy + Iz)/A ∫ φ'² dx in torsion (Wagner).
 /// Shear forces and moments are left out, and so is the second-order rotation of the offsets. A rigid rotation θ is
-/// answered by the end forces turned with it, N x̂ × θ.
+/// answered by the end forces ±N x̂ turned with it, ±N θ × x̂.
 /// @param u  the element's 12 displacements, basic frame  @throws ModelError as above
 /// Source: Przemieniecki, Theory of Matrix Structural Analysis, chapter 15 (one plane, κ = 0).
 void beam_geometric_stiffness(const Beam& beam, const BeamSection& section, const Material& material,

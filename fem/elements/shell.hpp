@@ -21,9 +21,9 @@ void quad4_matrices(const Quad4& quad, const ShellSection& section, const Materi
 void tria3_matrices(const Tria3& tria, const ShellSection& section, const Material& material,
                     std::span<const Vec3> nodes, ElementMatrices& out);
 
-/// Geometric stiffness 24×24 of the element's mean membrane stress resultants N [N/m] that the displacement u causes:
+/// Geometric stiffness (24×24, of a triangle 18×18) of the element's mean membrane stress resultants N [N/m] that the displacement u causes:
 ///   Σ over u, v, w of ∫ ∇u_iᵀ N ∇u_i dA,
-/// u, v bilinear, w with the linked deflections of its edges. Stress that varies over the element, moments, shear and
+/// u, v bilinear (in a triangle linear), w with the linked deflections of the edges. Stress that varies over the element, moments, shear and
 /// the second-order rotation of a warped quad's arms are left out.
 /// @param u  the element's displacements, basic frame  @throws ModelError as above
 void quad4_geometric_stiffness(const Quad4& quad, const ShellSection& section, const Material& material,
