@@ -18,7 +18,7 @@ constexpr double massless = 1e-13;  // of the largest 1/ω: below, a direction h
 // x_Q = τ_Q x_ref + Φ_Q η. With M = [D Lᵀ; L 1] = WᵀW, W = [S 0; L 1], SᵀS = D − LᵀL, the motion relative to port Q is
 // (−τ_Q⁻¹Φ_Q η, η), its mass root A = [−Sτ_Q⁻¹Φ_Q; 1 − Lτ_Q⁻¹Φ_Q], that of the motion with port Q W_Q = [S; L] τ_Q⁻¹.
 //   A Ω⁻¹ = U σ Yᵀ gives ω = 1/σ, V = Ω⁻¹Y σ⁻¹, L' = Vᵀ Aᵀ W_Q = Uᵀ W_Q, D' = τ_Q⁻ᵀ D τ_Q⁻¹:
-// neither mass nor ω is ever squared, so a load 1e12 times the body costs six digits of the others, not twelve.
+// neither mass nor ω is ever squared, so a load of ratio times the body costs the others ε √ratio at most, not ε ratio.
 ReducedBody rebase(const ReducedBody& body, int port) {
   if (port < 0 || port >= static_cast<int>(body.ports.size()))
     throw ModelError(fmt::format("body '{}' has no port number {}", body.name, port),
