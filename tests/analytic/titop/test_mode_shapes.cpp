@@ -74,8 +74,8 @@ TEST(ClampedFreeMode, HasItsClosedIntegralsUpToTheHundredthMode) {
 }
 
 // Fig. 9: the free-clamped beam against (13) with l − x for x, both one at the free end. The quintic's own errors,
-// computed from (15)–(17) outside this project: 4.9e-5 and 1.99e-2 (1.5e-2 when both are scaled to ∫φ² = 1 and the tip
-// is 2).
+// 4.822e-5 and 1.989e-2, by Ritz' method with (1−x)² P_j(2x−1), j = 0..3, P_j Legendre's polynomials, in 200 Gauss
+// points, eigenvectors 1 at the free end, against the exact mode at the 21 nodes (by numpy); 0.5 %: the digits given.
 TEST(ModeShapes, OfTheFreeClampedBeamAreTheMirroredClosedForm) {
   const reduction::ReducedBody beam = unit_beam(BeamModel::polynomial);
   const InvertedModes inverted = inverted_modes(beam, {1, 5, 7, 11});
@@ -90,15 +90,15 @@ TEST(ModeShapes, OfTheFreeClampedBeamAreTheMirroredClosedForm) {
           worst,
           std::abs(psi[k] - exact.value(1.0 - beam.node_positions[static_cast<std::size_t>(k)].x()) / exact.tip()));
     fmt::print("free-clamped mode {}: largest error {:.2e} of the tip\n", i + 1, worst);
-    EXPECT_NEAR(worst, i == 0 ? 4.86e-5 : 1.992e-2, i == 0 ? 1e-6 : 1e-4);
+    EXPECT_NEAR(worst / (i == 0 ? 4.822e-5 : 1.989e-2), 1.0, 5e-3);
     EXPECT_LT((psi - other).cwiseAbs().maxCoeff(), 1e-11);
   }
 }
 
 // Fig. 9 with the default basis: a beam of 64 elements, ρA = EI = l = 1, stiff out of the plane, with 2 and 4
 // fixed-interface modes beside constraint and inertia-relief shapes: below 1 % of the tip from two modes on. The
-// figures of the basis itself were computed outside this project from Hermite beams (without a fixed-interface mode
-// they are the quintic's, 4.86e-5 and 1.99e-2).
+// figures of the basis itself by Ritz' method as above, the polynomials and the exact clamped-clamped modes together,
+// at the 65 nodes: 1.545e-6 and 2.019e-4, 1.698e-7 and 2.364e-5.
 TEST(ModeShapes, OfTheFreeClampedBeamByTheDefaultBasis) {
   constexpr double I = 4e-8;
   tests::BeamData data;
@@ -108,7 +108,7 @@ TEST(ModeShapes, OfTheFreeClampedBeamByTheDefaultBasis) {
   data.section = {.name = "unit", .A = 1.0, .Iy = 1e6 * I, .Iz = I, .J = 1e6 * I};
   const fem::Structure structure = fem::assemble(tests::beam(data, {{"P", 0}, {"C", data.elements}}));
   for (const auto& [kept, own] :
-       {std::pair<int, std::array<double, 2>>{2, {1.55e-6, 2.02e-4}}, {4, {1.70e-7, 2.36e-5}}}) {
+       {std::pair<int, std::array<double, 2>>{2, {1.545e-6, 2.019e-4}}, {4, {1.698e-7, 2.364e-5}}}) {
     const reduction::ReducedBody beam = reduction::reduce(structure, "P", {.modes = kept});
     Boundary held = boundary(beam, {End::free, End::clamped}, Scope::bending);
     for (const std::size_t d : {0u, 2u, 3u, 4u})
@@ -125,7 +125,7 @@ TEST(ModeShapes, OfTheFreeClampedBeamByTheDefaultBasis) {
       fmt::print("free-clamped mode {}, inertia relief and {} modes: largest error {:.2e} of the tip\n", i + 1, kept,
                  worst);
       EXPECT_LT(worst, 1e-2) << kept << " modes kept, mode " << i + 1;
-      EXPECT_NEAR(worst, own[static_cast<std::size_t>(i)], 0.05 * own[static_cast<std::size_t>(i)]) << kept;
+      EXPECT_NEAR(worst / own[static_cast<std::size_t>(i)], 1.0, 5e-3) << kept;
     }
   }
 }
