@@ -33,6 +33,11 @@ void check(const IntegrationOptions& options, const IntegrationState& state, boo
   const double rho = options.implicit.rho_infinity, newton = options.implicit.tolerance;
   demand(rho >= 0.0 && rho <= 1.0, "rho_infinity", rho, "Give a number from 0 (most damping) to 1 (none)");
   demand(std::isfinite(newton) && newton >= 0.0, "the tolerance of implicit steps", newton, "Give a positive number");
+  const bool kept = fixed_steps(options.method) || options.method == Method::dormand_prince;
+  if (kept && state.h > 0.0 && options.step > 0.0 && options.step != state.step)
+    throw ModelError(fmt::format("the run goes on with its own step of {:.6g} s, and another of {:.6g} s is given",
+                                 state.h, options.step),
+                     "Leave the step out, or start anew");
   if (loops && options.method == Method::adams)
     throw ModelError("adams takes no closed loops", "Use --method bdf, or generalized-alpha with --step");
 }

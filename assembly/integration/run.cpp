@@ -49,10 +49,6 @@ void choose_step(const IntegrationOptions& options, IntegrationState& state) {
     const double span = options.sample > 0.0 ? options.sample : options.until - state.begin;
     state.step = options.step;
     state.h = span > 0.0 ? span / std::max(1.0, std::ceil(span / options.step - 1e-9)) : options.step;
-  } else if (options.step > 0.0 && options.step != state.step) {
-    throw ModelError(fmt::format("the run goes on in steps of {:.6g} s, and another step of {:.6g} s is given", state.h,
-                                 options.step),
-                     "Leave the step out, or start anew");
   }
   const double per_sample = options.sample / state.h;
   if (options.sample > 0.0 && (per_sample < 0.5 || std::abs(per_sample - std::round(per_sample)) > 1e-9 * per_sample))

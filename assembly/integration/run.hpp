@@ -32,8 +32,8 @@ struct Run {
   bool may_step();
 };
 
-/// Of generalised-α and midpoint: fills in state.h. Throws ModelError when there is no step, when it is another than
-/// the one the state was reached with, or when samples do not fall on steps.
+/// Of generalised-α and midpoint: fills in state.h. Throws ModelError when there is no step, or when samples do not
+/// fall on steps.
 void choose_step(const IntegrationOptions& options, IntegrationState& state);
 
 void run_fixed_steps(Run& run);

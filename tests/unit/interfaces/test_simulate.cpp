@@ -101,7 +101,7 @@ TEST_F(Simulate, ABladeGoesOnBitForBit) {
   EXPECT_EQ(last_line("rest/history_from_1.02.csv"), last_line("whole/history.csv"));
   const Ended other = tenon("simulate " + scene + " --time 2 --step 0.002 --resume half/checkpoint.json");
   EXPECT_EQ(other.status, 2);
-  EXPECT_THAT(other.err, HasSubstr("another step of 0.002 s"));
+  EXPECT_THAT(other.err, HasSubstr("another of 0.002 s is given"));
   const Ended again = tenon("simulate " + scene + " --time 1 --resume half/checkpoint.json");
   EXPECT_EQ(again.status, 2);
   EXPECT_THAT(again.err, HasSubstr("stands at 1 s already"));
