@@ -1,30 +1,18 @@
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <nlohmann/json.hpp>
 #include <numbers>
-#include <sstream>
 
-#include "tests/support/temporary_folder.hpp"
+#include "tests/unit/interfaces/program.hpp"
 
-// The program from outside: what it prints, what it writes, how it ends.
+// What the program prints, what it writes, how it ends.
 namespace {
 
-using nlohmann::json;
 using testing::ContainsRegex;
 using testing::HasSubstr;
-namespace fs = std::filesystem;
-
-struct Ended {
-  int status = -1;
-  std::string out, err;
-};
 
 /// Cantilever of FV2's square section (0.125 m, E = 200 GPa, ρ = 8000), L = 10, Euler-Bernoulli, clamped through a
 /// port.
@@ -43,27 +31,11 @@ outputs: {tip: {at: beam.tip, displacement: [y, z]}}
 requires: {band: [0, 40 Hz], tolerance: 1e-4}
 )";
 
-class Cli : public testing::Test {
+class Cli : public Program {
  protected:
   Cli() {
     fs::copy_file(fs::path(TENON_SOURCE_DIR) / "data/reference/beam_16.msh", folder_.path() / "beam_16.msh");
     scene_ = folder_.write("scene.yaml", beam_scene).string();
-  }
-
-  Ended tenon(const std::string& arguments) const {
-    const fs::path out = folder_.path() / "stdout", err = folder_.path() / "stderr";
-    const std::string line = "cd " + folder_.path().string() + " && " + std::string(TENON_PROGRAM) + " " + arguments +
-                             " >" + out.string() + " 2>" + err.string() + " </dev/null";
-    const int ended = std::system(line.c_str());
-    Ended run{WIFEXITED(ended) ? WEXITSTATUS(ended) : -1, text(out), text(err)};
-    fs::remove(out);
-    fs::remove(err);
-    return run;
-  }
-  json object(const std::string& arguments, int status = 0) const {
-    const Ended run = tenon(arguments + " --json");
-    EXPECT_EQ(run.status, status) << run.err;
-    return json::parse(run.out);
   }
   std::string scene_with(const std::string& from, const std::string& to) const {
     std::string changed = beam_scene;
@@ -71,18 +43,7 @@ class Cli : public testing::Test {
     EXPECT_NE(at, std::string::npos) << from;
     return folder_.write("changed.yaml", changed.replace(at, from.size(), to)).string();
   }
-  static std::string text(const fs::path& file) {
-    std::ifstream stream(file);
-    return {std::istreambuf_iterator<char>(stream), {}};
-  }
-  std::vector<std::string> files() const {
-    std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(folder_.path())) names.push_back(entry.path().filename().string());
-    std::sort(names.begin(), names.end());
-    return names;
-  }
 
-  TemporaryFolder folder_;
   std::string scene_;
 };
 
@@ -285,127 +246,26 @@ TEST_F(Cli, PicturesEscapeNames) {
   }
 }
 
-/// A blade that is spun up to 6 rad/s in 15 s about its root: the data of REFERENCES' spin-up, ρA 1.2, EI 1.4e4, L 10.
-const char* const blade_scene = R"(units: SI
-materials: {m: {E: 2e11, nu: 0.25, rho: 1200}}
-bodies:
-  hub: {rigid: {mass: 1, inertia: [1, 1, 1]}, ports: {base: [0, 0, 0], axle: [0, 0, 0]}}
-  blade:
-    beam:
-      from: [0, 0, 0]
-      to: [10, 0, 0]
-      section: {general: {A: 1e-3, Iy: 7e-8, Iz: 7e-8, J: 1.4e-7}, shear: euler-bernoulli, orientation: [0, 1, 0]}
-      material: m
-      elements: 20
-    reduction: {modes: 6}
-joints: {axle: {parent: hub.axle, child: blade.P, revolute: z, inertia: 1e10}}
-ground: [hub.base]
-inputs: {drive: {at: axle}}
-outputs: {turn: {at: axle, measure: rate}}
-simulation: {time: 2, step: 0.002, sample: 0.01, forces: {drive: {table: [[0, 0], [1, 4e9], [2, 4e9]]}}}
-)";
-
-TEST_F(Cli, SimulateGoesOnBitForBitAndStiffensUnderSpin) {
-  const std::string scene = folder_.write("blade.yaml", blade_scene).string();
-  const auto last_line = [&](const char* file) {
-    std::istringstream lines(text(folder_.path() / file));
-    std::string line, last;
-    while (std::getline(lines, line)) last = line;
-    return last;
-  };
-  const Ended whole = tenon("simulate " + scene + " --out whole");
-  ASSERT_EQ(whole.status, 0) << whole.err;
-  EXPECT_THAT(whole.out, testing::Not(HasSubstr("no geometric stiffening")));  // meshes and beams carry it
-  for (const char* file : {"whole/history.csv", "whole/history.npz", "whole/energy.svg", "whole/checkpoint.json"})
-    EXPECT_TRUE(fs::exists(folder_.path() / file)) << file;
-  ASSERT_EQ(tenon("simulate " + scene + " --time 1 --out half").status, 0);
-  ASSERT_EQ(tenon("simulate " + scene + " --resume half/checkpoint.json --out rest").status, 0);
-  EXPECT_EQ(last_line("rest/history_from_1.01.csv"), last_line("whole/history.csv"));
-  // the flywheel turns by the integral of the torque over its inertia, 0.2 + 0.4 rad/s
-  const double rate = std::stod(last_line("whole/history.csv").substr(2));
-  EXPECT_NEAR(rate, 0.6, 1e-6);
-}
-
-// A body reduced to a file carries what large motion needs: the spun-up blade from its file runs as the blade itself.
-TEST_F(Cli, ReducedBodiesCarryWhatLargeMotionNeeds) {
-  const std::string scene = folder_.write("blade.yaml", blade_scene).string();
-  ASSERT_EQ(tenon("reduce " + scene + " --body blade -o blade.body.json").status, 0);
-  const json body = json::parse(text(folder_.path() / "blade.body.json"));
-  EXPECT_TRUE(body["shape_integrals"].is_object());
-  EXPECT_TRUE(body["geometric_stiffness"].is_object());
-  std::string from_file = blade_scene;
-  const std::size_t first = from_file.find("  blade:"), last = from_file.find("joints:");
-  from_file.replace(first, last - first, "  blade: {reduced: blade.body.json}\n");
-  folder_.write("from_file.yaml", from_file);
-  const auto energies = [&](const std::string& file) {
-    std::vector<double> values;
-    for (const json& channel : object("simulate " + file + " --time 0.5")["channels"])
-      values.push_back(channel["last"]);
-    return values;
-  };
-  const std::vector<double> direct = energies(scene), read = energies("from_file.yaml");
-  ASSERT_EQ(direct.size(), read.size());
-  for (std::size_t k = 0; k < direct.size(); ++k)  // digits are written to the last: only the order of sums may differ
-    EXPECT_NEAR(read[k], direct[k], 1e-9 * (1.0 + std::abs(direct[k]))) << k;
-  ASSERT_EQ(tenon("reduce " + scene + " --body blade --linear -o linear.body.json").status, 0);
-  EXPECT_TRUE(json::parse(text(folder_.path() / "linear.body.json"))["shape_integrals"].is_null());
-}
-
-// Two axles in one: the shipped spacecraft and four-bar linearised at rest are their linear systems; a blade on a
-// turning flywheel flaps and swings as the rotating cantilever of REFERENCES.
-TEST_F(Cli, AssembleLinearisesTheRecursiveModel) {
-  for (const char* name : {"data/spacecraft/scene.yaml", "data/fourbar/scene.yaml"}) {
-    const std::string scene = (fs::path(TENON_SOURCE_DIR) / name).string();
-    const json linear = object("assemble " + scene), recursive = object("assemble " + scene + " --linearise");
-    ASSERT_EQ(recursive["frequencies_hz"].size(), linear["frequencies_hz"].size()) << name;
-    EXPECT_EQ(recursive["rigid_modes"], linear["rigid_modes"]);
-    EXPECT_EQ(recursive["inputs"], linear["inputs"]);
-    EXPECT_EQ(recursive["outputs"], linear["outputs"]);
-    for (std::size_t k = linear["rigid_modes"]; k < linear["frequencies_hz"].size(); ++k)
-      EXPECT_NEAR(recursive["frequencies_hz"][k].get<double>() / linear["frequencies_hz"][k].get<double>(), 1.0, 1e-9);
-  }
-}
-
-TEST_F(Cli, AssembleLinearisesAboutASpin) {
-  // (λ, first flap) of tests/reference/rotating_beam.hpp; chord² = flap² − λ²
-  for (const auto& [lambda, flap] : {std::pair(0.0, 3.516015), {4.0, 5.585001}, {12.0, 13.17015}}) {
-    // slender enough for λ = 12: r²/L² = 3e-11, EI/ρAL⁴ = (2e11)(3e-14)/(1200)(1e-3)(1e4) = 5e-7
-    const double unit = std::sqrt(2e11 * 3e-14 / (1200.0 * 1e-3 * 1e4));
-    std::string scene = blade_scene;
-    const auto replace = [&](const std::string& from, const std::string& to) {
-      ASSERT_NE(scene.find(from), std::string::npos) << from;
-      scene.replace(scene.find(from), from.size(), to);
-    };
-    replace("Iy: 7e-8, Iz: 7e-8, J: 1.4e-7", "Iy: 3e-14, Iz: 3e-14, J: 6e-14");
-    replace("elements: 20", "elements: 160");  // tension is constant in an element: 0.4 (h/L)² of its stiffening
-    replace("{modes: 6}", "{modes: 24}");
-    scene.replace(scene.find("simulation:"), std::string::npos,
-                  fmt::format("simulation: {{initial: {{axle: {{rate: {}}}}}}}\n", lambda * unit));
-    folder_.write("spun.yaml", scene);
-    const json found = object("assemble spun.yaml --linearise -o spun.json");
-    const json file = json::parse(text(folder_.path() / "spun.json"));
-    EXPECT_EQ(file["second_order"]["coordinates"].back(), "axle");
-    EXPECT_EQ(file["A"].size(), 2 * file["second_order"]["M"].size());
-    std::vector<double> omega;
-    for (const json& f : found["frequencies_hz"]) omega.push_back(2.0 * std::numbers::pi * f.get<double>() / unit);
-    const std::size_t free = found["rigid_modes"];
-    EXPECT_EQ(free, 1u);  // the flywheel's turn
-    EXPECT_NEAR(omega[free] / std::sqrt(flap * flap - lambda * lambda), 1.0, 1e-4) << lambda;
-    EXPECT_NEAR(omega[free + 1] / flap, 1.0, 1e-4) << lambda;
-  }
-}
-
 TEST_F(Cli, DoctorSaysWhatIsLinkedAndUnderWhichTerms) {
   const json doctor = object("doctor");
-  EXPECT_TRUE(doctor["libraries"].contains("CHOLMOD"));
+  for (const char* library : {"CHOLMOD", "SUNDIALS", "libzip"}) EXPECT_TRUE(doctor["libraries"].contains(library));
   EXPECT_GE(doctor["threads"].get<int>(), 1);
   EXPECT_THAT(doctor["licence"]["binary"].get<std::string>(), HasSubstr("GPL"));
+}
+
+TEST_F(Cli, DoctorCountsAndMeasuresForwardDynamics) {
+  const json cost = object("doctor --cost --bodies 2 --svg cost.svg");
+  ASSERT_EQ(cost["chains"].size(), 16u);  // 0 to 15 modes
+  const json& chain = cost["chains"][10];
+  EXPECT_NEAR(chain["counted_ratio"].get<double>(), 1.07, 5e-3);  // 19,579 / 18,280 by the polynomials of section 8
+  EXPECT_GT(chain["articulated_s"].get<double>(), 0.0);
+  EXPECT_THAT(text(folder_.path() / "cost.svg"), HasSubstr("2 bodies, measured"));
 }
 
 TEST_F(Cli, HelpEndsWithStatusZeroAndAnExample) {
   EXPECT_EQ(tenon("--help").status, 0);
   for (const char* command :
-       {"info", "init", "check", "modes", "reduce", "assemble", "frf", "sweep", "beam", "doctor"}) {
+       {"info", "init", "check", "modes", "reduce", "assemble", "frf", "sweep", "simulate", "beam", "doctor"}) {
     const Ended help = tenon(std::string(command) + " --help");
     EXPECT_EQ(help.status, 0);
     EXPECT_THAT(help.out, HasSubstr("Example"));
