@@ -11,12 +11,13 @@ namespace tenon::assembly {
 /// wrenches by apply_wrench().
 using Loads = std::function<void(double t, const MotionState& state, Sweeps& sweeps, Eigen::VectorXd& T)>;
 
-/// A system with work space for its motion. Nothing allocates after make_dynamics() while no loop closes.
+/// A system with work space for its motion. Nothing allocates after the first evaluation.
 struct Dynamics {
   const Multibody* system = nullptr;
   Loads loads;
   Sweeps sweeps;
   ClosureRows rows;
+  ClosureInertia inertia;
   Eigen::VectorXd T;       ///< nv: springs, dampers and loads of the last evaluation
   Eigen::VectorXd lambda;  ///< m: forces of the closures
   long evaluations = 0;    ///< of the equations of motion
@@ -46,7 +47,7 @@ void increment_rates(const Multibody& system, const Eigen::VectorXd& u, const Ei
 std::vector<int> attitude_offsets(const Multibody& system);
 
 /// Finite numbers, quaternions of unit length, loops closed in position and speed (both within 1e-6 of the system's
-/// size and of the largest speed). Throws ModelError that names the body or the closure.
+/// size and of the largest speed). Throws ModelError that names the body or the closure, and what check_sides() throws.
 void check_state(Dynamics& dynamics, const MotionState& state);
 
 }  // namespace tenon::assembly
