@@ -7,6 +7,7 @@
 #include <iostream>
 #include <numbers>
 
+#include "assembly/integration/dynamics.hpp"
 #include "assembly/recursion/linearise.hpp"
 #include "assembly/recursion/stiffening.hpp"
 #include "reduction/geometric_stiffness.hpp"
@@ -168,6 +169,12 @@ TEST(RotatingBeam, ForcesAtPortsStressIt) {
   const double L = data.length, EI = data.material.E * data.section.Iy;
   const double Euler = std::numbers::pi * std::numbers::pi * EI / (4.0 * L * L);
   EXPECT_NEAR(1.0 / buckling.eigenvalues().maxCoeff() / Euler, 1.0, 1e-3);  // Ritz with its own modes
+  const Loads push = [&](double, const MotionState& s, Sweeps& sweeps, VectorXd&) {
+    apply_wrench(system, s.q, 0, 1, -Vec6::Unit(0), sweeps);
+  };
+  Dynamics dynamics = make_dynamics(system, push);  // and as the loads of a motion
+  set_forces(dynamics, 0.0, rest_state(system));
+  EXPECT_LT((dynamics.sweeps.bodies[0].K_G - pushed).norm(), 1e-6 * pushed.norm());
 
   system.bodies[0].kind = HingeKind::free;
   system.bodies[0].stiffness = system.bodies[0].damping = system.bodies[0].inertia = VectorXd();
