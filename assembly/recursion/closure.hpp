@@ -15,6 +15,7 @@ struct ClosureRows {
   Eigen::VectorXd rate;   ///< m: J χ
   Eigen::VectorXd gamma;  ///< m: J̇ χ
   Eigen::MatrixXd J_t;    ///< nv×m: Jᵀ
+  Mat6X on_outer;         ///< 6×m: wrench of a unit multiplier on the outer port, world axes; the inner feels −it
   double length = 1.0;    ///< that weighs rotations [m]
   int turned_over = -1;   ///< first closure whose hinge stands half a turn off, where its rows vanish too; −1: none
   std::vector<Mat6X> shapes;  ///< scratch: shapes at the ports
@@ -47,9 +48,8 @@ struct ClosureInertia {
   Eigen::VectorXd diagonal, beside, work, f, x, missing;
 };
 
-/// After articulate() and closure_rows(). Sizes `inertia` when it is first given; after that nothing is allocated
-/// up to 48 rows.
-/// Throws NumericalError when no gap tells redundant rows from others.
+/// After articulate() and closure_rows(). Sizes `inertia` when it is first given; after that nothing is allocated, up
+/// to 48 rows. Throws NumericalError when no gap tells redundant rows from others.
 void closure_inertia(const Multibody& system, Sweeps& sweeps, const ClosureRows& rows, ClosureInertia& inertia);
 ClosureInertia closure_inertia(const Multibody& system, Sweeps& sweeps, const ClosureRows& rows);
 
