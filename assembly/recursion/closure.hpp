@@ -42,7 +42,7 @@ struct ClosureInertia {
   Eigen::Index redundant = 0;  ///< how many: the first directions, in which multipliers are indeterminate
 
   // scratch: an eigen-solver in two halves, for as one it takes from the heap
-  Eigen::Tridiagonalization<Eigen::MatrixXd> tridiagonal;
+  Eigen::Tridiagonalization<Eigen::MatrixXd> tridiagonal{1};
   Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen;
   Eigen::MatrixXd compliance;
   Eigen::VectorXd diagonal, beside, work, f, x, missing;
