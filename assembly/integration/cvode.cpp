@@ -121,7 +121,7 @@ int precondition_setup(double, N_Vector y, N_Vector, int, int* current, double g
     articulate(p.system, p.matrix, {gamma, gamma * gamma});
     if (p.dynamics.loops()) {
       closure_rows(p.system, p.matrix, p.state.q, p.state.v, p.rows);
-      p.inertia = closure_inertia(p.system, p.matrix, p.rows);
+      closure_inertia(p.system, p.matrix, p.rows, p.inertia);
     }
     inverse_dynamics(p.system, p.matrix, p.zero, p.bias);
     *current = 1;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "assembly/recursion/stiffening.hpp"
 #include "fem/error.hpp"
 
 namespace tenon::assembly {
@@ -12,9 +13,6 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 namespace {
-
-// first of the three speeds of an attitude among the β of a hinge, −1 without one
-int attitude(HingeKind kind) { return kind == HingeKind::spherical ? 0 : kind == HingeKind::free ? 3 : -1; }
 
 // The body that a speed belongs to.
 const HingedBody& owner(const Multibody& system, Index speed) {
@@ -60,7 +58,10 @@ void set_forces(Dynamics& dynamics, double t, const MotionState& state) {
 void apply_forces(Dynamics& dynamics, double t, const MotionState& state) {
   const Multibody& system = *dynamics.system;
   passive_forces(system, state.q, state.v, dynamics.T);
-  if (dynamics.loads) dynamics.loads(t, state, dynamics.sweeps, dynamics.T);
+  if (dynamics.loads) {
+    dynamics.loads(t, state, dynamics.sweeps, dynamics.T);
+    restiffen(system, state.q, dynamics.sweeps);
+  }
   require_finite(system, dynamics.T, t, "force", "Look at the forces that act on it, or take smaller steps");
   ++dynamics.evaluations;
 }
@@ -72,8 +73,8 @@ void accelerations(Dynamics& dynamics, double t, const MotionState& state, Vecto
   forward_dynamics(system, dynamics.sweeps, dynamics.T, v_dot);
   if (dynamics.loops()) {
     closure_rows(system, dynamics.sweeps, state.q, state.v, dynamics.rows);
-    const ClosureInertia inertia = closure_inertia(system, dynamics.sweeps, dynamics.rows);
-    close(dynamics.rows, inertia, v_dot, dynamics.lambda);
+    closure_inertia(system, dynamics.sweeps, dynamics.rows, dynamics.inertia);
+    close(dynamics.rows, dynamics.inertia, v_dot, dynamics.lambda);
   }
   require_finite(system, v_dot, t, "acceleration", "Look at the forces that act on it, or take smaller steps");
 }
@@ -125,6 +126,7 @@ void check_state(Dynamics& dynamics, const MotionState& state) {
   if (const double gap = dynamics.rows.gap.cwiseAbs().maxCoeff(&row); gap > tolerance)
     throw ModelError(fmt::format("closure '{}' gapes by {:.3g} m at the start", closure_of(system, row).name, gap),
                      "Give hinge positions that close the loops, or project() the state first");
+  check_sides(system, dynamics.rows);
   const double speed = std::max(1.0, state.v.cwiseAbs().maxCoeff());
   if (const double rate = dynamics.rows.rate.cwiseAbs().maxCoeff(&row); rate > tolerance * speed)
     throw ModelError(fmt::format("closure '{}' opens at {:.3g} m/s at the start", closure_of(system, row).name, rate),

@@ -11,12 +11,13 @@ namespace tenon::assembly {
 /// wrenches by apply_wrench().
 using Loads = std::function<void(double t, const MotionState& state, Sweeps& sweeps, Eigen::VectorXd& T)>;
 
-/// A system with work space for its motion. Nothing allocates after make_dynamics() while no loop closes.
+/// A system with work space for its motion. Nothing allocates after the first evaluation.
 struct Dynamics {
   const Multibody* system = nullptr;
   Loads loads;
   Sweeps sweeps;
   ClosureRows rows;
+  ClosureInertia inertia;
   Eigen::VectorXd T;       ///< nv: springs, dampers and loads of the last evaluation
   Eigen::VectorXd lambda;  ///< m: forces of the closures
   long evaluations = 0;    ///< of the equations of motion
@@ -46,7 +47,8 @@ void increment_rates(const Multibody& system, const Eigen::VectorXd& u, const Ei
 std::vector<int> attitude_offsets(const Multibody& system);
 
 /// Finite numbers, unit quaternions, loops closed within 1e-6 of the system's size, in speed of that times the largest
-/// speed or 1/s, whichever is more. Throws ModelError that names the body or the closure.
+/// speed or 1/s, whichever is more. Throws ModelError that names the body or the closure, and what check_sides()
+/// throws.
 void check_state(Dynamics& dynamics, const MotionState& state);
 
 }  // namespace tenon::assembly

@@ -27,7 +27,7 @@ void factor(Dynamics& dynamics, const MotionState& state, const ImplicitTerms& t
   articulate(*dynamics.system, work.matrix, terms);
   if (!dynamics.loops()) return;
   closure_rows(*dynamics.system, work.matrix, state.q, state.v, dynamics.rows);
-  work.inertia = closure_inertia(*dynamics.system, work.matrix, dynamics.rows);
+  closure_inertia(*dynamics.system, work.matrix, dynamics.rows, work.inertia);
 }
 
 double correction(Dynamics& dynamics, double per_gap, ImplicitWork& work, VectorXd& force) {

@@ -127,7 +127,7 @@ Simulation make_simulation(const Network& network, const SceneSimulation& scene)
     set_state(system, simulation.start.q, asked, sweeps);
     closure_rows(system, sweeps, simulation.start.q, asked, rows);
     articulate(system, sweeps, {0.0, 1.0});
-    const ClosureInertia inertia = closure_inertia(system, sweeps, rows);
+    ClosureInertia inertia = closure_inertia(system, sweeps, rows);
     rows.gamma.setZero();
     VectorXd lambda(rows.rows());
     close(rows, inertia, simulation.start.v, lambda);

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,10 +20,15 @@ using Eigen::VectorXd;
 namespace {
 
 // What a hinge forbids, in its inboard frame a and its outboard frame b, r from the origin of a to that of b:
-// a_i·r = 0 and a_i·b_j = 0.
+// a_i·r = 0 and a_i·b_j = 0. The latter leave axes parallel or antiparallel: upright is parallel, z with two rows or
+// more, x as well with three.
 struct Forbidden {
   std::array<bool, 3> slides;
   std::span<const std::array<int, 2>> turns;
+
+  bool upright(const Mat3& A, const Mat3& B) const {
+    return (turns.size() < 2 || A.col(2).dot(B.col(2)) > 0.0) && (turns.size() < 3 || A.col(0).dot(B.col(0)) > 0.0);
+  }
 };
 constexpr std::array<std::array<int, 2>, 3> all_turns{{{0, 2}, {1, 2}, {1, 0}}};
 constexpr std::array<std::array<int, 2>, 1> cross{{{0, 1}}};  // universal: x of one side stays across y of the other
@@ -67,6 +71,7 @@ double reach(const Multibody& system) {
 }  // namespace
 
 ClosureRows make_closure_rows(const Multibody& system) {
+  check_closures(system);
   Index rows = 0, most = 0;
   for (const Closure& c : system.closures) rows += row_count(c.kind);
   for (const HingedBody& b : system.bodies) most = std::max<Index>(most, b.modes());
@@ -85,6 +90,7 @@ ClosureRows make_closure_rows(const Multibody& system) {
 void closure_rows(const Multibody& system, const Sweeps& sweeps, const VectorXd& q, const VectorXd& v,
                   ClosureRows& rows) {
   rows.J_t.setZero();
+  rows.turned_over = -1;
   Index row = 0;
   for (std::size_t c = 0; c < system.closures.size(); ++c) {
     const Closure& closure = system.closures[c];
@@ -106,6 +112,7 @@ void closure_rows(const Multibody& system, const Sweeps& sweeps, const VectorXd&
       ++row;
     };
     const Forbidden hinge = forbidden(closure.kind);
+    if (rows.turned_over < 0 && !hinge.upright(A, B)) rows.turned_over = static_cast<int>(c);
     for (int i = 0; i < 3; ++i) {
       if (!hinge.slides[static_cast<std::size_t>(i)]) continue;
       const Vec3 e = A.col(i), turning = w_a.cross(e);  // d/dt (e·r) = e·(v_b − v_a − ω_a × r)
@@ -126,50 +133,85 @@ void closure_rows(const Multibody& system, const Sweeps& sweeps, const VectorXd&
   }
 }
 
-ClosureInertia closure_inertia(const Multibody& system, Sweeps& sweeps, const ClosureRows& rows) {
-  const Index m = rows.J_t.cols();
-  ClosureInertia c;
+void check_sides(const Multibody& system, const ClosureRows& rows) {
+  if (rows.turned_over < 0) return;
+  const Closure& closure = system.closures[static_cast<std::size_t>(rows.turned_over)];
+  throw NumericalError(
+      fmt::format("closure '{}' closes with its {} hinge turned over, axes opposed instead of parallel; gap [m]",
+                  closure.name, name(closure.kind)),
+      rows.gap.cwiseAbs().maxCoeff(), "Start nearer to the position wanted, or turn the hinge frame of one side");
+}
+
+void closure_inertia(const Multibody& system, Sweeps& sweeps, const ClosureRows& rows, ClosureInertia& c) {
+  const Index m = rows.rows();
   c.X.resize(system.nv, m);
-  VectorXd x(system.nv);
+  c.compliance.resize(m, m);
+  for (VectorXd* of_rows : {&c.scale, &c.inverse, &c.missing}) of_rows->resize(m);
+  for (VectorXd* of_speeds : {&c.f, &c.x}) of_speeds->resize(system.nv);
+  c.redundant = 0;
+  if (m == 0) return;
   for (Index j = 0; j < m; ++j) {
-    solve(system, sweeps, rows.J_t.col(j), x);
-    c.X.col(j) = x;
+    c.f = rows.J_t.col(j);
+    solve(system, sweeps, c.f, c.x);
+    c.X.col(j) = c.x;
   }
-  const MatrixXd compliance = rows.J_t.transpose() * c.X;  // Λ⁻¹
+  for (Index j = 0; j < m; ++j)  // Λ⁻¹
+    for (Index i = 0; i <= j; ++i)
+      c.compliance(i, j) = c.compliance(j, i) =
+          0.5 * (rows.J_t.col(i).dot(c.X.col(j)) + rows.J_t.col(j).dot(c.X.col(i)));
   // rows in units of what a unit of each moves, so that their weights do not decide which count
-  c.scale = compliance.diagonal().unaryExpr([](double d) { return d > 0.0 ? 1.0 / std::sqrt(d) : 1.0; });
-  const MatrixXd scaled = c.scale.asDiagonal() * compliance * c.scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(0.5 * (scaled + scaled.transpose()));
-  const VectorXd& w = eigen.eigenvalues();  // ascending
+  for (Index j = 0; j < m; ++j) {
+    const double moves = c.compliance(j, j);
+    c.scale[j] = moves > 0.0 ? 1.0 / std::sqrt(moves) : 1.0;
+  }
+  for (Index j = 0; j < m; ++j)
+    for (Index i = 0; i < m; ++i) c.compliance(i, j) *= c.scale[i] * c.scale[j];
+  c.tridiagonal.compute(c.compliance);
+  c.diagonal = c.tridiagonal.diagonal();
+  c.beside = c.tridiagonal.subDiagonal();
+  c.eigen.computeFromTridiagonal(c.diagonal, c.beside);
+  c.directions = c.eigen.eigenvectors();
+  c.tridiagonal.matrixQ().applyThisOnTheLeft(c.directions, c.work);
+  const VectorXd& w = c.eigen.eigenvalues();  // ascending
   constexpr double noise = 1e-11, clear = 1e3;
-  Index redundant = 0;
-  while (redundant < m && w[redundant] < noise) ++redundant;  // a row that moves has one on the diagonal
-  if (redundant > 0 && redundant < m) {
-    const double dropped = std::max(std::abs(w[redundant - 1]), std::numeric_limits<double>::epsilon());
-    if (w[redundant] < clear * dropped)
+  while (c.redundant < m && w[c.redundant] < noise) ++c.redundant;  // a row that moves has one on the diagonal
+  if (c.redundant > 0 && c.redundant < m) {
+    const double dropped = std::max(std::abs(w[c.redundant - 1]), std::numeric_limits<double>::epsilon());
+    if (w[c.redundant] < clear * dropped)
       throw NumericalError(
           "the rows that close the loops are neither independent nor redundant: ratio of what the last "
           "kept and the first dropped let move",
-          w[redundant] / dropped, "Move the mechanism out of the singular position");
+          w[c.redundant] / dropped, "Move the mechanism out of the singular position");
   }
-  c.Q = eigen.eigenvectors().rightCols(m - redundant);
-  c.inverse = w.tail(m - redundant).cwiseInverse();
-  c.redundant = eigen.eigenvectors().leftCols(redundant);
-  return c;
+  for (Index j = 0; j < m; ++j) c.inverse[j] = j < c.redundant ? 0.0 : 1.0 / w[j];
+}
+
+ClosureInertia closure_inertia(const Multibody& system, Sweeps& sweeps, const ClosureRows& rows) {
+  ClosureInertia inertia;
+  closure_inertia(system, sweeps, rows, inertia);
+  return inertia;
 }
 
 namespace {
 
-// λ of least norm (in scaled rows) with J X λ = −gap
-void multipliers(const ClosureInertia& c, const VectorXd& missing, VectorXd& lambda) {
-  const VectorXd scaled = c.scale.cwiseProduct(missing);
-  lambda = -c.scale.cwiseProduct(c.Q * c.inverse.cwiseProduct(c.Q.transpose() * scaled));
+// λ of least norm (in scaled rows) with J X λ = −missing
+void multipliers(ClosureInertia& c, VectorXd& lambda) {
+  lambda.setZero();
+  if (c.missing.size() == 0) return;
+  c.missing.array() *= c.scale.array();
+  for (Index j = c.redundant; j < c.missing.size(); ++j) {
+    const auto direction = c.directions.col(j);
+    lambda -= c.inverse[j] * direction.dot(c.missing) * direction;
+  }
+  lambda.array() *= c.scale.array();
 }
 
 }  // namespace
 
-void close(const ClosureRows& rows, const ClosureInertia& c, VectorXd& v_dot, VectorXd& lambda) {
-  multipliers(c, rows.J_t.transpose() * v_dot + rows.gamma, lambda);
+void close(const ClosureRows& rows, ClosureInertia& c, VectorXd& v_dot, VectorXd& lambda) {
+  c.missing = rows.gamma;
+  c.missing.noalias() += rows.J_t.transpose() * v_dot;
+  multipliers(c, lambda);
   v_dot.noalias() += c.X * lambda;
 }
 
@@ -177,16 +219,19 @@ double project(const Multibody& system, Sweeps& sweeps, ClosureRows& rows, Motio
   constexpr int most_steps = 30;
   double first = 0.0, last = std::numeric_limits<double>::infinity();
   VectorXd lambda(rows.rows());
+  ClosureInertia c;
   for (int step = 0;; ++step) {
     set_state(system, state.q, state.v, sweeps);
     closure_rows(system, sweeps, state.q, state.v, rows);
-    const double gap = rows.rows() > 0 ? rows.gap.cwiseAbs().maxCoeff() : 0.0;
+    const double gap = rows.gap.lpNorm<Eigen::Infinity>();
     if (step == 0) first = gap;
     articulate(system, sweeps);
-    const ClosureInertia c = closure_inertia(system, sweeps, rows);
+    closure_inertia(system, sweeps, rows, c);
     // quadratic convergence: what no longer halves is round-off, if small, or a loop that cannot close
     if (gap <= 1e-14 * rows.length || (gap <= 1e-9 * rows.length && gap > 0.5 * last)) {
-      multipliers(c, rows.rate, lambda);
+      check_sides(system, rows);
+      c.missing = rows.rate;
+      multipliers(c, lambda);
       state.v.noalias() += c.X * lambda;
       return first;
     }
@@ -194,9 +239,10 @@ double project(const Multibody& system, Sweeps& sweeps, ClosureRows& rows, Motio
       throw NumericalError("the loops do not close by moving the joints; what stays open [m]", gap,
                            "Start nearer to a closed position, or correct the lengths");
     last = gap;
-    multipliers(c, rows.gap, lambda);
+    c.missing = rows.gap;
+    multipliers(c, lambda);
     VectorXd delta = c.X * lambda;
-    const double size = delta.cwiseAbs().maxCoeff();
+    const double size = delta.lpNorm<Eigen::Infinity>();
     if (size > 0.5) delta *= 0.5 / size;  // far off: turn by half a radian at most
     move(system, delta, state.q);
   }

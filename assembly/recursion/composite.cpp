@@ -10,7 +10,7 @@ using fem::shift_wrench;
 
 namespace {
 
-// R(p) += 𝓐 φ R^rr(k) φ* 𝓐*, lower half of the ff block
+// R(p) += 𝓐 φ R^rr(k) φ* 𝓐*
 void add_to_parent(const BodySweep& child, BodySweep& parent) {
   const Mat6 Gamma = child.X.inertia(child.P_rr);
   parent.P_rr += shift_inertia(Gamma, child.to_node);

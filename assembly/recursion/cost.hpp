@@ -27,8 +27,9 @@ MeasuredCost measure_cost(const Multibody& system);
 /// "articulated bodies, 4.1 times faster than composite bodies": what is cheaper for the system, and by how much.
 std::string cheaper(const MeasuredCost& cost);
 
-/// The chain of the paper's counts as a system: equal beams with `modes` bending modes each, deformation dropped, on
-/// revolute hinges, fixed at one end.
+/// As many bodies and modes as in the paper's counts, but less work than is counted: equal beams with `modes`
+/// cantilever bending modes each, deformation dropped, on revolute hinges, fixed at one end. Hung by the clamped port
+/// they have no Π_F (the paper's free-free modes do), and their hinges turn about axes that stay.
 Multibody beam_chain(int bodies, int modes);
 
 /// χ̇ by the composite-body mass matrix and its Cholesky factors, eqs (46), (50): what articulated bodies spare.

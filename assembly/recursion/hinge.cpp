@@ -37,9 +37,6 @@ Mat3 about_z(double angle) {
   return R;
 }
 
-// first of the quaternion's four coordinates and of the three of its β; −1 without an attitude
-int attitude(HingeKind kind) { return kind == HingeKind::spherical ? 0 : kind == HingeKind::free ? 3 : -1; }
-
 Vec3 turn_of(HingeKind kind, const double* beta) { return Eigen::Map<const Vec3>(beta + attitude(kind)); }
 
 }  // namespace
@@ -47,6 +44,7 @@ Vec3 turn_of(HingeKind kind, const double* beta) { return Eigen::Map<const Vec3>
 std::string name(HingeKind kind) { return of(kind).name; }
 int hinge_dofs(HingeKind kind) { return of(kind).dofs; }
 int hinge_coordinates(HingeKind kind) { return of(kind).coordinates; }
+int attitude(HingeKind kind) { return kind == HingeKind::spherical ? 0 : kind == HingeKind::free ? 3 : -1; }
 
 void hinge_motion(HingeKind kind, const double* theta, const double* beta, HingeMotion& motion) {
   motion.R.setIdentity();

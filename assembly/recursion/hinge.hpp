@@ -18,6 +18,9 @@ int hinge_dofs(HingeKind kind);
 /// Numbers that say where it stands: n_r, but a quaternion (x, y, z, w) takes four for the three of an attitude.
 int hinge_coordinates(HingeKind kind);
 
+/// Where an attitude begins, both among the coordinates (its quaternion) and among the speeds: 0 or 3; −1 without one.
+int attitude(HingeKind kind);
+
 /// 6×n_r, inline storage.
 using HingeMap = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 6>;
 

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "assembly/recursion/closure.hpp"
+#include "assembly/recursion/stiffening.hpp"
 #include "fem/rotation.hpp"
 
 namespace tenon::assembly {
@@ -72,12 +73,14 @@ LinearMotion linearise(const Multibody& system, const MotionState& state, const 
   passive_matrices(system, state.q, linear);
 
   VectorXd T(nv), held(nv);
+  restiffen(system, state.q, v_dot, sweeps);
   inverse_dynamics(system, sweeps, v_dot, T);
   passive_forces(system, state.q, state.v, held);
   const VectorXd lambda = rows.rows() > 0 ? VectorXd(rows.J_t.completeOrthogonalDecomposition().solve(T - held))
                                           : VectorXd();  // what the closures carry
   const auto residual = [&](const VectorXd& q, const VectorXd& v) {
     set_state(system, q, v, sweeps);
+    restiffen(system, q, v_dot, sweeps);
     inverse_dynamics(system, sweeps, v_dot, T);
     if (lambda.size() == 0) return;
     closure_rows(system, sweeps, q, v, rows);
@@ -96,11 +99,10 @@ LinearMotion linearise(const Multibody& system, const MotionState& state, const 
       residual(state.q, v);
       linear.C.col(j) += weight / step * T;
     }
-  if (moves) {
-    const MatrixXd Omega = turning(system, state.v);
-    linear.K += linear.C * Omega;
-    linear.C += linear.M * Omega;
-  }
+  // δβ̇ = ξ̈ + Ω ξ̇ + Ω̇ ξ
+  const MatrixXd Omega = turning(system, state.v);
+  linear.K += linear.C * Omega + linear.M * turning(system, v_dot);
+  linear.C += linear.M * Omega;
   return linear;
 }
 

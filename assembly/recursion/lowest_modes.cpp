@@ -53,16 +53,19 @@ LowestModes lowest_modes(const Multibody& system, int count) {
   if (!system.closures.empty())
     throw ModelError("the recursion for the lowest modes needs a tree, but the system has loops",
                      "Linearise the system as a whole");
+  if (count < 1 || system.nv < 2)
+    throw ModelError(fmt::format("{} lowest modes are asked of {} coordinates, where Lanczos finds one to all but one",
+                                 count, system.nv),
+                     "Ask for one mode or more; linearise a system of one coordinate as a whole");
   Multibody still = system;
   still.gravity.setZero();
   const VectorXd root = stiffness_root(still);
   Sweeps sweeps = make_sweeps(still);
   const MotionState rest = rest_state(still);
   set_state(still, rest.q, rest.v, sweeps);
-  const Operator op{still, sweeps, root, {}, VectorXd(system.nv)};
+  Operator op{still, sweeps, root, {}, VectorXd(system.nv)};
   const Index wanted = std::min<Index>(count, system.nv - 1);
-  Spectra::SymEigsSolver<Operator> solver(const_cast<Operator&>(op), wanted,
-                                          std::min<Index>(system.nv, 4 * wanted + 20));
+  Spectra::SymEigsSolver<Operator> solver(op, wanted, std::min<Index>(system.nv, 4 * wanted + 20));
   solver.init();
   constexpr int most_restarts = 1000;
   constexpr double tolerance = 1e-14;

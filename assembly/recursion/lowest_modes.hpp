@@ -11,8 +11,9 @@ struct LowestModes {
   Eigen::MatrixXd shapes;  ///< nv×count, mass-normalised
 };
 
-/// Throws ModelError naming the body when a hinge has no spring (a rigid motion) or the system has loops,
-/// NumericalError when the iteration does not converge.
+/// At most nv − 1 of them, whatever is asked. Throws ModelError naming the body when a hinge has no spring (a rigid
+/// motion), when the system has loops, fewer than two coordinates or `count` is below one; NumericalError when the
+/// iteration does not converge.
 LowestModes lowest_modes(const Multibody& system, int count);
 
 }  // namespace tenon::assembly

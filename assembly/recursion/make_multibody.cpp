@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <numeric>
 
 #include "assembly/recursion/multibody.hpp"
 #include "fem/error.hpp"
@@ -29,14 +31,46 @@ HingeKind kind_of(const Joint& joint) {
   return joint.kind == JointKind::revolute ? HingeKind::revolute : HingeKind::weld;
 }
 
+bool carries_drive(const Joint& joint) {
+  return joint.stiffness != 0.0 || joint.damping != 0.0 || joint.inertia != 0.0;
+}
+
+// Which joints belong to the tree (Kruskal): those that carry a drive first, then those that an input drives, then
+// those by which the network is placed, so that a joint of none of these closes the loop where there is one.
+std::vector<bool> tree_joints(const Network& network, const Placement& placement) {
+  const std::size_t count = network.joints.size();
+  std::vector<int> rank(count, 3);
+  for (const int j : placement.tree_joint)
+    if (j >= 0) rank[static_cast<std::size_t>(j)] = 2;
+  for (const Input& input : network.inputs)
+    if (input.joint) rank[static_cast<std::size_t>(*input.joint)] = 1;
+  for (std::size_t j = 0; j < count; ++j)
+    if (carries_drive(network.joints[j])) rank[j] = 0;
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return rank[a] < rank[b]; });
+
+  std::vector<int> piece(network.bodies.size());  // bodies that are joined so far have the same
+  std::iota(piece.begin(), piece.end(), 0);
+  std::vector<bool> in_tree(count, false);
+  for (const std::size_t j : order) {
+    const int a = piece[static_cast<std::size_t>(network.joints[j].parent.body)],
+              b = piece[static_cast<std::size_t>(network.joints[j].child.body)];
+    if (a == b) continue;
+    in_tree[j] = true;
+    std::replace(piece.begin(), piece.end(), b, a);
+  }
+  return in_tree;
+}
+
 struct Builder {
   const Network& network;
   Placement placement;
   NetworkMultibody result;
-  std::vector<bool> used_joint, used_ground;
+  std::vector<bool> in_tree, used_ground;
 
   explicit Builder(const Network& net)
-      : network(net), placement(place(net)), used_joint(net.joints.size()), used_ground(net.ground.size()) {
+      : network(net), placement(place(net)), in_tree(tree_joints(net, placement)), used_ground(net.ground.size()) {
     result.body.assign(net.bodies.size(), -1);
     result.hinge.assign(net.joints.size(), -1);
     result.closure.assign(net.joints.size(), -1);
@@ -87,11 +121,12 @@ struct Builder {
 
   void close(int j) {
     const Joint& joint = network.joints[static_cast<std::size_t>(j)];
-    if (joint.stiffness != 0.0 || joint.damping != 0.0 || joint.inertia != 0.0)
-      throw ModelError(fmt::format("joint '{}' closes a loop and carries a drive, which finite motion takes only in "
-                                   "joints of the tree",
-                                   joint.name),
-                       "List another joint of the loop after it, so that the other one closes the loop");
+    if (carries_drive(joint))
+      throw ModelError(
+          fmt::format("joint '{}' closes a loop and carries a drive, as every joint of the loop does; finite "
+                      "motion takes drives only in joints of the tree",
+                      joint.name),
+          "Take stiffness, damping and inertia from one joint of the loop");
     const HingeFrames frames = hinge_frames(network, joint);
     Closure c;
     c.name = joint.name;
@@ -116,20 +151,16 @@ struct Builder {
 
   bool reached(int body) const { return result.body[static_cast<std::size_t>(body)] >= 0; }
 
-  // Breadth first from the bodies listed from `first` on; joints between reached bodies close loops.
+  // Breadth first along the joints of the tree, from the bodies listed from `first` on.
   void grow(std::size_t first, std::vector<int>& order) {
     for (std::size_t at = first; at < order.size(); ++at)
       for (std::size_t j = 0; j < network.joints.size(); ++j) {
         const Joint& joint = network.joints[j];
-        if (used_joint[j] || (joint.parent.body != order[at] && joint.child.body != order[at])) continue;
-        used_joint[j] = true;
+        if (!in_tree[j] || (joint.parent.body != order[at] && joint.child.body != order[at])) continue;
         const int other = joint.parent.body == order[at] ? joint.child.body : joint.parent.body;
-        if (reached(other)) {
-          close(static_cast<int>(j));
-        } else {
-          hang(static_cast<int>(j), order[at]);
-          order.push_back(other);
-        }
+        if (reached(other)) continue;
+        hang(static_cast<int>(j), order[at]);
+        order.push_back(other);
       }
   }
 
@@ -152,10 +183,7 @@ NetworkMultibody make_multibody(const Network& network) {
   std::vector<int> order;
   for (std::size_t g = 0; g < network.ground.size(); ++g) {
     const PortRef& ref = network.ground[g];
-    if (b.reached(ref.body)) {
-      b.used_ground[g] = false;
-      continue;
-    }
+    if (b.reached(ref.body)) continue;
     b.used_ground[g] = true;
     b.add_root(ref.body, ref.port);
     order.push_back(ref.body);
@@ -167,6 +195,8 @@ NetworkMultibody make_multibody(const Network& network) {
     order.push_back(body);
     b.grow(order.size() - 1, order);
   }
+  for (std::size_t j = 0; j < network.joints.size(); ++j)
+    if (!b.in_tree[j]) b.close(static_cast<int>(j));
   for (std::size_t g = 0; g < network.ground.size(); ++g)
     if (!b.used_ground[g]) b.ground(network.ground[g]);
   for (const LumpedMass& lump : network.masses) b.add_lump(lump);

@@ -1,3 +1,4 @@
+#include "assembly/recursion/port_motion.hpp"
 #include "assembly/recursion/sweep_kernels.hpp"
 #include "assembly/recursion/sweeps.hpp"
 
@@ -36,7 +37,7 @@ void set_nodes(const Multibody& system, const HingedBody& b, BodySweep& s) {
   s.own_node = port.position - b.body->reference;
   if (b.modes() == 0 || port.Phi.isZero(0.0)) return;
   s.Pi_F = port.Phi;  // Π_F^d = φ*(d, k) Π^d
-  for (Index i = 0; i < s.Pi_F.cols(); ++i) s.Pi_F.col(i).head<3>() -= s.Pi_F.col(i).tail<3>().cross(s.own_node);
+  to_reference(s.own_node, s.Pi_F);
 }
 
 // inner R_z(θ) outerᵀ in its parts, and H_F* along the axis, which θ leaves where it is
@@ -63,7 +64,7 @@ Sweeps make_sweeps(const Multibody& system) {
     set_nodes(system, b, s);
     if (b.body->stiffening && b.deformation == Deformation::full && n > 0) {
       s.K_G = MatrixXd::Zero(n, n);
-      s.port_wrenches = VectorXd::Zero(6 * static_cast<Index>(b.body->ports.size()));
+      s.applied = s.port_wrenches = VectorXd::Zero(6 * static_cast<Index>(b.body->ports.size()));
       sweeps.stiffening = true;
     }
     s.M = rest_mass(*b.body);

@@ -14,7 +14,9 @@
 /// (the paper counts tip to base).
 namespace tenon::assembly {
 
-/// What deformation does to the inertia and to the places of a body's ports.
+/// What deformation does to the inertia and to the places of a body's ports. A body with modes but without shape
+/// integrals (analytic beams, files written without them) cannot shift its mass: with `full` its ports move, but M_m
+/// stays that of the undeformed body and spin puts no centrifugal load on its modes.
 enum class Deformation {
   full,     ///< moves ports, shifts mass
   dropped,  ///< neither: "ruthlessly linearised", eqs (75)–(78)
@@ -57,11 +59,16 @@ struct Multibody {
   // filled by index()
   std::vector<int> q_offset, v_offset;  ///< of each body: η then θ; η̇ then β
   int nq = 0, nv = 0;                   ///< coordinates ϑ and speeds χ, eq (4)
+  std::vector<int> root;                ///< of each body: where its tree begins
 };
 
-/// Numbers the coordinates after checking that parents come first, that ports exist and that sizes agree. Throws
-/// ModelError naming the body.
+/// Numbers the coordinates after checking that parents come first, that ports exist, that sizes agree and that frames
+/// are orthonormal, closures included. Throws ModelError naming the body or the closure.
 void index(Multibody& system);
+
+/// Of every closure: its ports exist, its frames are orthonormal, its hinge forbids something. Throws ModelError naming
+/// it.
+void check_closures(const Multibody& system);
 
 /// Equal links in a row on revolute hinges about z, each by its port 0 on port 1 of the one before, the first on the
 /// ground.
@@ -88,8 +95,9 @@ struct NetworkMultibody {
 };
 
 /// Placed as the network is placed: at rest every hinge stands at zero, its joint at its angle. Lumped masses become
-/// bodies welded to their ports. Joints that close loops, and grounded ports but the first of a piece, become closures;
-/// a drive in a closure is refused. Throws ModelError naming the joint, and what place() throws.
+/// bodies welded to their ports. Joints that close loops, and grounded ports but the first of a piece, become closures.
+/// Joints that carry a drive go into the tree first, so that a drive in a closure, which is refused, means that every
+/// joint of that loop carries one. Throws ModelError naming the joint, and what place() throws.
 NetworkMultibody make_multibody(const Network& network);
 
 }  // namespace tenon::assembly

@@ -34,6 +34,10 @@ DeformedNode deformed_node(const HingedBody& b, int port, const double* eta, con
   return node;
 }
 
+void to_reference(const Vec3& to_node, Mat6X& Pi) {
+  for (Index i = 0; i < Pi.cols(); ++i) Pi.col(i).head<3>() -= Pi.col(i).tail<3>().cross(to_node);
+}
+
 PortMotion port_motion(const Multibody& system, const Sweeps& sweeps, const VectorXd& q, const VectorXd& v,
                        const PortRef& port, const Vec3& place, Mat6X& Pi) {
   PortMotion m;

@@ -17,6 +17,9 @@ struct DeformedNode {
 /// it is (constant) and the node stays where it was. No allocation.
 DeformedNode deformed_node(const HingedBody& body, int port, const double* eta, const double* eta_dot, Mat6X& Pi);
 
+/// Shapes Π of a node to Π_F = φ*(node, F) Π, as felt at the reference F; `to_node` from there.
+void to_reference(const Vec3& to_node, Mat6X& Pi);
+
 /// Motion of a port in the world: pose of its body-fixed frame, twist and the part of its acceleration that is there
 /// without χ̇ and gravity, at the port, world axes.
 struct PortMotion {

@@ -14,11 +14,6 @@ using fem::shift_twist;
 
 namespace {
 
-// Π_F^d = φ*(d, k) Π^d, k the reference seen from d
-void to_reference(const Vec3& to_node, Mat6X& Pi) {
-  for (Index i = 0; i < Pi.cols(); ++i) Pi.col(i).head<3>() -= Pi.col(i).tail<3>().cross(to_node);
-}
-
 // M_m(η) and b_m; of a body whose deformation is dropped M_m stays as make_sweeps() left it, eq (75)
 void set_body_terms(const HingedBody& b, const double* eta, const double* eta_dot, const Vec3& w, BodySweep& s) {
   const ReducedBody& body = *b.body;
@@ -147,6 +142,7 @@ void apply_wrench(const Multibody& system, const VectorXd& q, int body, int port
   f.tail<3>() = fem::rotation_tangent(u.tail<3>()).transpose() * wrench.tail<3>();
   for (Index i = 0; i < n; ++i) s.b[i] -= p.Phi.col(i).dot(f);
   s.b.tail<6>() -= fem::shift_wrench(wrench, p.position + u.head<3>() - b.body->reference);
+  if (s.applied.size() > 0) s.applied.segment<6>(6 * port) += wrench;
 }
 
 }  // namespace tenon::assembly

@@ -6,10 +6,18 @@
 
 namespace tenon::assembly {
 
-/// b_f += K_G η for bodies that carry geometric stiffening, under the loads of the motion as it is with χ̇ = 0: the
-/// accelerations that velocities and gravity make, and what bodies farther out pull with at the ports. Exact in steady
-/// spin; the loads of χ̇ itself are left out. set_state() calls it.
+/// b_f += K_G η for bodies that carry geometric stiffening, under the loads of the motion as far as it is known: what
+/// velocities and gravity accelerate, and what bodies farther out pull with at the ports. χ̇ is taken as 0, but a tree
+/// that floats (free root without springs, not closed to the ground) is accelerated as a whole with its hinges and
+/// modes held. Exact in free fall and in steady spin, fixed or afloat; the loads of the χ̇ of hinges and modes are left
+/// out. set_state() calls it.
 void add_stiffening(const Multibody& system, const Eigen::VectorXd& q, Sweeps& sweeps);
+
+/// After apply_wrench(): K_G η under the wrenches at ports as well, in place of what set_state() added.
+void restiffen(const Multibody& system, const Eigen::VectorXd& q, Sweeps& sweeps);
+
+/// The same under the accelerations `v_dot` in place of those that add_stiffening() takes.
+void restiffen(const Multibody& system, const Eigen::VectorXd& q, const Eigen::VectorXd& v_dot, Sweeps& sweeps);
 
 /// The body whose spin comes closest to its first frequency, of those without geometric stiffening: where spin softens
 /// a model that leaves it out (relative error of the first frequency ~ ½ ratio²).

@@ -42,6 +42,7 @@ struct BodySweep {
   // geometric stiffening, empty without it
   Eigen::MatrixXd K_G;            ///< n×n
   Eigen::VectorXd port_wrenches;  ///< 6 per port, on the body
+  Eigen::VectorXd applied;        ///< of them, those of apply_wrench()
 
   // articulated body, eqs (63), (64)
   Eigen::MatrixXd L11;      ///< padded×n: D_f = L11 L11ᵀ, strictly lower; the reciprocal diagonal apart
@@ -79,7 +80,8 @@ Sweeps make_sweeps(const Multibody& system);
 /// Base to tip: poses, V, a_mR, M_m, b_m for a state, eqs (45), (23), (25), (37).
 void set_state(const Multibody& system, const Eigen::VectorXd& q, const Eigen::VectorXd& v, Sweeps& sweeps);
 
-/// A wrench on a body at one of its ports, about the deformed port, in the body's axes [N, N m].
+/// A wrench on a body at one of its ports, about the deformed port, in the body's axes [N, N m]. Geometric stiffening
+/// feels it after restiffen().
 void apply_wrench(const Multibody& system, const Eigen::VectorXd& q, int body, int port, const Vec6& wrench,
                   Sweeps& sweeps);
 
@@ -102,7 +104,8 @@ void forward_dynamics(const Multibody& system, Sweeps& sweeps, const Eigen::Vect
 /// x = 𝓜⁻¹ f after articulate(): eq (64) without velocities, gravity and loads.
 void solve(const Multibody& system, Sweeps& sweeps, const Eigen::VectorXd& f, Eigen::VectorXd& x);
 
-/// Kinetic energy ½ Σ V_mᵀ M_m V_m, elastic energy and that of hinge springs, and −m g·c of gravity [J].
+/// Kinetic energy ½ Σ V_mᵀ M_m V_m, elastic energy and that of hinge springs, and −m g·c of gravity [J]; to first order
+/// in modes that do not shift mass or ports. That of geometric stiffening is not in it.
 struct Energy {
   double kinetic = 0.0, elastic = 0.0, gravity = 0.0;
   double total() const { return kinetic + elastic + gravity; }

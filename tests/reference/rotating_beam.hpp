@@ -12,7 +12,7 @@ struct RotatingBeam {
   double lambda;
   std::array<double, 3> flap;
 };
-inline constexpr std::array<RotatingBeam, 7> rotating_beams{{{0.0, {3.516015, -1.0, -1.0}},
+inline constexpr std::array<RotatingBeam, 7> rotating_beams{{{0.0, {3.516015, 22.03449, -1.0}},
                                                              {1.0, {3.681647, -1.0, -1.0}},
                                                              {2.0, {4.137320, -1.0, -1.0}},
                                                              {4.0, {5.585001, -1.0, -1.0}},

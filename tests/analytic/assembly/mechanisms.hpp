@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "tests/analytic/assembly/tops.hpp"
+#include "tests/reference/slider_crank.hpp"
 
 /// Planar mechanisms of rigid bars in the x-y plane, hinges along z, and references that know nothing of trees.
 namespace tenon::assembly::testing {
@@ -72,11 +73,9 @@ inline Eigen::Vector4d extrapolate(const std::function<Eigen::Vector4d(const Eig
   return y;
 }
 
-/// Crank, rod and a slider along x: the loop closes by a revolute hinge. Numbers of the IVP test set's slider-crank,
-/// whose rod is rigid here. One degree of freedom: ½ I(φ) φ̇² is constant without forces.
-struct SliderCrank {
-  double M1 = 0.36, M2 = 0.151104, M3 = 0.075552, L1 = 0.15, L2 = 0.30, J1 = 0.002727, J2 = 0.0045339259;
-
+/// Crank, rod, rigid here, and a slider along x: the loop closes by a revolute hinge. One degree of freedom:
+/// ½ I(φ) φ̇² is constant without forces.
+struct SliderCrank : reference::SliderCrank {
   Multibody system() const {
     Multibody mb;  // J1 about the pivot, J2 about the pin
     mb.bodies = {rod("crank", M1, L1, J1 - 0.25 * M1 * L1 * L1), rod("rod", M2, L2, J2 - 0.25 * M2 * L2 * L2),

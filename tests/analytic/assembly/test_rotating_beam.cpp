@@ -5,11 +5,14 @@
 
 #include <Eigen/Eigenvalues>
 #include <iostream>
+#include <numbers>
 
+#include "assembly/integration/dynamics.hpp"
 #include "assembly/recursion/linearise.hpp"
 #include "assembly/recursion/stiffening.hpp"
 #include "reduction/geometric_stiffness.hpp"
 #include "reduction/reduce.hpp"
+#include "tests/reference/rotating_beam.hpp"
 #include "tests/unit/reduction/beams.hpp"
 
 namespace tenon::assembly {
@@ -65,23 +68,17 @@ VectorXd frequencies(const Multibody& system, double spin) {
 }
 
 TEST(RotatingBeam, FlapAndChordFollowTheSpin) {
-  struct Row {
-    double lambda, flap1, flap2;  // flap2: 0 where the source lists only the first
-  };
-  const std::vector<Row> rows{{0.0, 3.516015, 22.03449}, {1.0, 3.681647, 0.0},     {2.0, 4.137320, 0.0},
-                              {4.0, 5.585001, 0.0},      {6.0, 7.36037, 26.80908}, {8.0, 9.256838, 0.0},
-                              {12.0, 13.17015, 37.60311}};
   const tests::BeamData data = slender();
   const Multibody system = spinning(data, true);
   const double unit = data.bending(data.section.Iy);
   double worst = 0.0;
-  for (const Row& row : rows) {
-    const VectorXd omega = frequencies(system, row.lambda * unit) / unit;
-    const double chord1 = std::sqrt(row.flap1 * row.flap1 - row.lambda * row.lambda);
-    worst = std::max({worst, std::abs(omega[0] / chord1 - 1.0), std::abs(omega[1] / row.flap1 - 1.0)});
-    if (row.flap2 == 0.0) continue;
-    const double chord2 = std::sqrt(row.flap2 * row.flap2 - row.lambda * row.lambda);
-    worst = std::max({worst, std::abs(omega[2] / chord2 - 1.0), std::abs(omega[3] / row.flap2 - 1.0)});
+  for (const auto& [lambda, flap] : reference::rotating_beams) {
+    const VectorXd omega = frequencies(system, lambda * unit) / unit;
+    for (std::size_t mode = 0; mode < 2 && flap[mode] > 0.0; ++mode) {
+      const double chord = std::sqrt(flap[mode] * flap[mode] - lambda * lambda);
+      const auto at = static_cast<Index>(2 * mode);
+      worst = std::max({worst, std::abs(omega[at] / chord - 1.0), std::abs(omega[at + 1] / flap[mode] - 1.0)});
+    }
   }
   std::cout << "flap and chord of the rotating cantilever within " << worst << "\n";
   EXPECT_LT(worst, 1e-4);
@@ -102,6 +99,90 @@ TEST(RotatingBeam, WithoutStiffeningTheSpinSoftensAndIsSeen) {
   const SpinRatio ratio = spin_ratio(system, sweeps);
   EXPECT_EQ(ratio.body, 0);
   EXPECT_NEAR(ratio.ratio, 2.0 / 3.516015, 1e-3);
+}
+
+// Afloat, gravity falls with the beam and stresses nothing; spun about its middle its root is drawn towards it by
+// Ω²L/2.
+TEST(RotatingBeam, AfloatItIsLoadedByWhatItsOwnMotionLeaves) {
+  tests::BeamData data = slender();
+  data.elements = 20;
+  Multibody system = spinning(data, true);
+  const ReducedBody& body = *system.bodies[0].body;
+  const Index n = body.n();
+  const auto K_G = [&](double spin) {
+    MotionState state = rest_state(system);
+    state.v.tail<1>()[0] = spin;
+    Sweeps sweeps = make_sweeps(system);
+    set_state(system, state.q, state.v, sweeps);
+    return sweeps.bodies[0].K_G;
+  };
+  const auto expected = [&](const Vec3& a, double spin) {
+    MatrixXd K(n, n);
+    reduction::geometric_stiffness(*body.stiffening, a, Vec3::Zero(), spin * Vec3::UnitZ(), nullptr, K);
+    return K;
+  };
+  const double spin = 3.0;
+  system.gravity = {-5.0, 2.0, -9.81};
+  const MatrixXd hung = expected(-system.gravity, 0.0), held = expected(-system.gravity, spin);
+  EXPECT_LT((K_G(0.0) - hung).norm(), 1e-12 * hung.norm());
+  EXPECT_LT((K_G(spin) - held).norm(), 1e-12 * held.norm());
+
+  system.bodies[0].kind = HingeKind::free;
+  system.bodies[0].stiffness = system.bodies[0].damping = system.bodies[0].inertia = VectorXd();
+  index(system);
+  EXPECT_LT(K_G(0.0).norm(), 1e-9 * hung.norm());  // round-off of the solve for its acceleration
+  const MatrixXd free = expected(0.5 * spin * spin * data.length * Vec3::UnitX(), spin);
+  EXPECT_LT((K_G(spin) - free).norm(), 1e-9 * held.norm());
+
+  Closure pin;  // pinned to the ground after all: held again
+  pin.name = "pin";
+  pin.inner = {-1, -1};
+  pin.outer = {0, 0};
+  pin.kind = HingeKind::spherical;
+  system.closures = {pin};
+  EXPECT_LT((K_G(0.0) - hung).norm(), 1e-12 * hung.norm());
+}
+
+// Held at its root and pushed at its tip it buckles at π²EI/4L² (Euler). Afloat and pushed at its root by what lends it
+// the acceleration a, it is stressed as one that stands in gravity a.
+TEST(RotatingBeam, ForcesAtPortsStressIt) {
+  tests::BeamData data = slender();
+  data.elements = 40;
+  Multibody system = spinning(data, true);
+  const ReducedBody& body = *system.bodies[0].body;
+  const Index n = body.n();
+  const auto K_G = [&](int port, double push) {
+    MotionState state = rest_state(system);
+    state.q.head(n).setConstant(1e-9);
+    Sweeps sweeps = make_sweeps(system);
+    const BodySweep& beam = sweeps.bodies[0];
+    set_state(system, state.q, state.v, sweeps);
+    apply_wrench(system, state.q, 0, port, Vec6::Unit(0) * push, sweeps);
+    const VectorXd before = beam.b.head(n);
+    restiffen(system, state.q, sweeps);
+    const VectorXd expected = beam.K_G * state.q.head(n);
+    EXPECT_LT((beam.b.head(n) - before - expected).norm(), 1e-12 * expected.norm());
+    return MatrixXd(beam.K_G);
+  };
+  const MatrixXd K = body.omega.cwiseAbs2().asDiagonal(), pushed = K_G(1, -1.0);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> buckling(-pushed, K, Eigen::EigenvaluesOnly);
+  const double L = data.length, EI = data.material.E * data.section.Iy;
+  const double Euler = std::numbers::pi * std::numbers::pi * EI / (4.0 * L * L);
+  EXPECT_NEAR(1.0 / buckling.eigenvalues().maxCoeff() / Euler, 1.0, 1e-3);  // Ritz with its own modes
+  const Loads push = [&](double, const MotionState& s, Sweeps& sweeps, VectorXd&) {
+    apply_wrench(system, s.q, 0, 1, -Vec6::Unit(0), sweeps);
+  };
+  Dynamics dynamics = make_dynamics(system, push);  // and as the loads of a motion
+  set_forces(dynamics, 0.0, rest_state(system));
+  EXPECT_LT((dynamics.sweeps.bodies[0].K_G - pushed).norm(), 1e-6 * pushed.norm());
+
+  system.bodies[0].kind = HingeKind::free;
+  system.bodies[0].stiffness = system.bodies[0].damping = system.bodies[0].inertia = VectorXd();
+  index(system);
+  MatrixXd expected(n, n);
+  const double a = 7.0;
+  reduction::geometric_stiffness(*body.stiffening, a * Vec3::UnitX(), Vec3::Zero(), Vec3::Zero(), nullptr, expected);
+  EXPECT_LT((K_G(0, a * data.mass_total()) - expected).norm(), 1e-6 * expected.norm());  // its modes stand at 1e-9
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "assembly/recursion/closure.hpp"
 #include "reduction/shape_integrals.hpp"
+#include "tests/reference/slider_crank.hpp"
 
 namespace tenon::assembly {
 namespace {
@@ -18,19 +19,18 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using reduction::LumpedNode;
 
-constexpr double crank_length = 0.15, rod_length = 0.30, crank_mass = 0.36, crank_inertia = 0.002727;
-constexpr double rod_mass = 0.151104, rod_inertia = 0.0045339259, slider_mass = 0.075552;
+constexpr reference::SliderCrank set;
 constexpr double E = 2e11, width = 0.008, height = 0.008, rho = 7870.0, speed = 150.0;
 constexpr int shapes = 4, panels = 32;
 
 // y: sin πx/l, sin 2πx/l; x: 4 ξ(1 − ξ), ξ(2ξ − 1)
 Eigen::Matrix<double, 6, shapes> shape(double x) {
-  const double xi = x / rod_length, pi = std::numbers::pi;
+  const double xi = x / set.L2, pi = std::numbers::pi;
   Eigen::Matrix<double, 6, shapes> u = Eigen::Matrix<double, 6, shapes>::Zero();
   u(1, 0) = std::sin(pi * xi);
   u(1, 1) = std::sin(2.0 * pi * xi);
-  u(5, 0) = pi / rod_length * std::cos(pi * xi);
-  u(5, 1) = 2.0 * pi / rod_length * std::cos(2.0 * pi * xi);
+  u(5, 0) = pi / set.L2 * std::cos(pi * xi);
+  u(5, 1) = 2.0 * pi / set.L2 * std::cos(2.0 * pi * xi);
   u(0, 2) = 4.0 * xi * (1.0 - xi);
   u(0, 3) = xi * (2.0 * xi - 1.0);
   return u;
@@ -48,7 +48,7 @@ Rod rod() {
                             std::sqrt((3.0 + 2.0 * std::sqrt(1.2)) / 7.0)};
   const double weights[2] = {(18.0 + std::sqrt(30.0)) / 36.0, (18.0 - std::sqrt(30.0)) / 36.0};
   std::vector<LumpedNode> nodes;
-  const double panel = rod_length / panels;
+  const double panel = set.L2 / panels;
   for (int k = 0; k < panels; ++k)
     for (const int g : {0, 1})
       for (const double side : {-1.0, 1.0}) {
@@ -66,23 +66,23 @@ Rod rod() {
     M_zP += nodes[j].mass * slides.transpose() * rigid.topRows(3);
   }
   MatrixXd K = MatrixXd::Zero(shapes, shapes);
-  K(0, 0) = 0.5 * EI * std::pow(pi, 4) / std::pow(rod_length, 3);
+  K(0, 0) = 0.5 * EI * std::pow(pi, 4) / std::pow(set.L2, 3);
   K(1, 1) = 16.0 * K(0, 0);
-  const double axial = E * A / rod_length;
+  const double axial = E * A / set.L2;
   K(2, 2) = 16.0 / 3.0 * axial;
   K(3, 3) = 7.0 / 3.0 * axial;
   K(2, 3) = K(3, 2) = -8.0 / 3.0 * axial;
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(K, M);
   Rod r{reduction::rigid_body(
-            "rod", rod_mass, Vec3(0.5 * rod_length, 0.0, 0.0), Mat3::Identity(),
-            {{"pin", Vec3::Zero(), Mat3::Identity(), {}}, {"end", rod_length * Vec3::UnitX(), Mat3::Identity(), {}}}),
+            "rod", set.M2, Vec3(0.5 * set.L2, 0.0, 0.0), Mat3::Identity(),
+            {{"pin", Vec3::Zero(), Mat3::Identity(), {}}, {"end", set.L2 * Vec3::UnitX(), Mat3::Identity(), {}}}),
         eigen.eigenvectors()};
-  r.body.D.bottomRightCorner<3, 3>() = Vec3(1e-5, rod_inertia, rod_inertia).asDiagonal();  // about the pin
+  r.body.D.bottomRightCorner<3, 3>() = Vec3(1e-5, set.J2, set.J2).asDiagonal();  // about the pin
   r.body.omega = eigen.eigenvalues().cwiseSqrt();
   r.body.zeta = VectorXd::Zero(shapes);
   r.body.L = r.V.transpose() * M_zP;
   r.body.ports[0].Phi = shape(0.0) * r.V;
-  r.body.ports[1].Phi = shape(rod_length) * r.V;
+  r.body.ports[1].Phi = shape(set.L2) * r.V;
   r.body.shape_integrals = std::make_shared<const reduction::ShapeIntegrals>(
       reduction::shape_integrals(std::span<const LumpedNode>(nodes), all * r.V, Vec3::Zero()));
   return r;
@@ -93,8 +93,8 @@ Multibody slider_crank(const Rod& rod) {
   HingedBody crank;
   crank.name = "crank";
   crank.body = std::make_shared<const ReducedBody>(reduction::rigid_body(
-      "crank", crank_mass, Vec3(0.5 * crank_length, 0.0, 0.0), crank_inertia * Mat3::Identity(),
-      {{"axle", Vec3::Zero(), Mat3::Identity(), {}}, {"pin", crank_length * Vec3::UnitX(), Mat3::Identity(), {}}}));
+      "crank", set.M1, Vec3(0.5 * set.L1, 0.0, 0.0), set.J1 * Mat3::Identity(),
+      {{"axle", Vec3::Zero(), Mat3::Identity(), {}}, {"pin", set.L1 * Vec3::UnitX(), Mat3::Identity(), {}}}));
   crank.outer_port = 0;
   crank.kind = HingeKind::revolute;
   crank.inertia = VectorXd::Constant(1, 1e9);  // a flywheel: the speed changes by 1e-9
@@ -107,7 +107,7 @@ Multibody slider_crank(const Rod& rod) {
   HingedBody slider;
   slider.name = "slider";
   slider.body = std::make_shared<const ReducedBody>(reduction::rigid_body(
-      "slider", slider_mass, Vec3::Zero(), 1e-4 * Mat3::Identity(), {{"pin", Vec3::Zero(), Mat3::Identity(), {}}}));
+      "slider", set.M3, Vec3::Zero(), 1e-4 * Mat3::Identity(), {{"pin", Vec3::Zero(), Mat3::Identity(), {}}}));
   slider.outer_port = 0;
   slider.kind = HingeKind::prismatic;
   slider.inner_axes = slider.outer_axes = Eigen::AngleAxisd(0.5 * std::numbers::pi, Vec3::UnitY()).toRotationMatrix();
@@ -140,6 +140,7 @@ TEST(SliderCrank, ReachesThePublishedPositions) {
   project(system, sweeps, rows, s);  // the set's initial values close the loop to nine digits
 
   VectorXd T(system.nv), lambda(rows.rows());
+  ClosureInertia inertia;
   const auto rates = [&](const VectorXd& q, const VectorXd& v) {
     VectorXd v_dot(system.nv);
     set_state(system, q, v, sweeps);
@@ -147,7 +148,8 @@ TEST(SliderCrank, ReachesThePublishedPositions) {
     closure_rows(system, sweeps, q, v, rows);
     articulate(system, sweeps);
     forward_dynamics(system, sweeps, T, v_dot);
-    close(rows, closure_inertia(system, sweeps, rows), v_dot, lambda);
+    closure_inertia(system, sweeps, rows, inertia);
+    close(rows, inertia, v_dot, lambda);
     return v_dot;
   };
   constexpr int steps = 20000;
