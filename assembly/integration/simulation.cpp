@@ -66,6 +66,20 @@ std::vector<std::string> missing_integrals(const Multibody& system) {
   return notes;
 }
 
+// of the mass and the ports alone
+std::shared_ptr<const ReducedBody> without_modes(ReducedBody body) {
+  body.omega.resize(0);
+  body.zeta.resize(0);
+  body.C.resize(0, 0);
+  body.L.resize(0, 6);
+  for (reduction::BodyPort& port : body.ports) port.Phi.resize(6, 0);
+  body.node_positions.clear();
+  body.node_shapes.resize(0, 0);
+  body.shape_integrals.reset();
+  body.stiffening.reset();
+  return std::make_shared<const ReducedBody>(std::move(body));
+}
+
 }  // namespace
 
 Loads make_loads(const Network& network, const Simulation& simulation, const SceneSimulation& scene) {
@@ -108,12 +122,21 @@ Loads make_loads(const Network& network, const Simulation& simulation, const Sce
   };
 }
 
+Plan plan_motion(const Scene& scene, const SceneSimulation& section) {
+  Plan plan = assembly::plan(scene);
+  for (BodyPlan& body : plan.bodies) body.options.nonlinear = section.of(body.body) == Flexibility::full;
+  return plan;
+}
+
 Simulation make_simulation(const Network& network, const SceneSimulation& scene) {
   Simulation simulation{make_multibody(network), {}, 0.0, {}};
   Multibody& system = simulation.bodies.system;
   system.gravity = scene.gravity;
-  if (scene.dropped)
-    for (HingedBody& body : system.bodies) body.deformation = Deformation::dropped;
+  for (HingedBody& body : system.bodies) {
+    if (scene.of(body.name) == Flexibility::dropped) body.deformation = Deformation::dropped;
+    if (scene.of(body.name) == Flexibility::rigid) body.body = without_modes(*body.body);
+  }
+  index(system);
   simulation.notes = missing_integrals(system);
   simulation.start = rest_state(system);
   for (const InitialMotion& initial : scene.initial) set_initial(network, initial, simulation);

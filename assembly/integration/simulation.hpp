@@ -1,6 +1,7 @@
 #pragma once
 
 #include "assembly/integration/integrate.hpp"
+#include "assembly/plan.hpp"
 #include "assembly/scene/simulation.hpp"
 
 /// A network in large motion: where it starts, what drives it, and what is seen of it.
@@ -12,6 +13,9 @@ struct Simulation {
   double moved = 0.0;              ///< the gap of the loops before they were closed [m]
   std::vector<std::string> notes;  ///< sentences: what the bodies' data leave out
 };
+
+/// plan(), with what large motion needs of the bodies that deform in full.
+Plan plan_motion(const Scene& scene, const SceneSimulation& section);
 
 /// Throws ModelError or InputError for motions that joints and bodies cannot have, NumericalError for loops that do not
 /// close.

@@ -175,16 +175,22 @@ const Key one_initial{"initial motion", map, "", false, &initial};
 const Schema forces{"forces", {}, &one_force};
 const Schema initials{"initial motions", {}, &one_initial};
 
-const Schema simulation{"a simulation",
-                        {{"time", scalar, "how long"},
-                         {"step", scalar, "of methods with fixed steps; the first one of others"},
-                         {"tolerance", scalar, "relative, of methods that choose their steps"},
-                         {"method", scalar, method_choice},
-                         {"sample", scalar, "time between samples"},
-                         {"gravity", list, "acceleration of gravity, world axes"},
-                         {"deformation", scalar, "full (default): moves ports and shifts mass; dropped: neither"},
-                         {"initial", map, "joint or floating body -> where and how fast it starts", false, &initials},
-                         {"forces", map, "input -> a value, or a force over time", false, &forces}}};
+const Key one_level{"level", scalar, "full, dropped or rigid"};
+const Schema levels{"deformation", {}, &one_level};
+
+const Schema simulation{
+    "a simulation",
+    {{"time", scalar, "how long"},
+     {"step", scalar, "of methods with fixed steps; the first one of others"},
+     {"tolerance", scalar, "relative, of methods that choose their steps"},
+     {"method", scalar, method_choice},
+     {"sample", scalar, "time between samples"},
+     {"gravity", list, "acceleration of gravity, world axes"},
+     {"deformation", scalar | map,
+      "full (default): moves ports and shifts mass; dropped: neither; rigid: none; or body -> one of these", false,
+      &levels},
+     {"initial", map, "joint or floating body -> where and how fast it starts", false, &initials},
+     {"forces", map, "input -> a value, or a force over time", false, &forces}}};
 
 const Key one_body{"body", map, "", false, &body};
 const Key one_joint{"joint", map, "", false, &joint};

@@ -92,6 +92,25 @@ InitialMotion read_initial(const Member& entry, const Scene& scene) {
   return initial;
 }
 
+/// One word for all bodies, or body -> word.
+std::map<std::string, Flexibility> read_deformation(const Value& value, const Scene& scene) {
+  const auto word = [](const Value& said) {
+    return static_cast<Flexibility>(choice(said, {"full", "dropped", "rigid"}));
+  };
+  std::map<std::string, Flexibility> of;
+  std::vector<std::string> names;
+  for (const SceneBody& body : scene.bodies) names.push_back(body.name);
+  if (value.kind == Value::Kind::scalar) {
+    for (const std::string& name : names) of[name] = word(value);
+    return of;
+  }
+  for (const Member& entry : value.members) {
+    if (std::find(names.begin(), names.end(), entry.key) == names.end()) unknown(entry.place, "body", entry.key, names);
+    of[entry.key] = word(entry.value);
+  }
+  return of;
+}
+
 }  // namespace
 
 double value(const Signal& s, double t) {
@@ -133,7 +152,7 @@ SceneSimulation read_simulation(const Scene& scene) {
   const std::vector<std::string> methods(method_names.begin(), method_names.end());
   if (const Value* found = section->find("method"))
     simulation.method = methods[static_cast<std::size_t>(choice(*found, methods))];
-  if (const Value* found = section->find("deformation")) simulation.dropped = choice(*found, {"full", "dropped"}) == 1;
+  if (const Value* found = section->find("deformation")) simulation.deformation = read_deformation(*found, scene);
   if (const Value* found = section->find("gravity"))
     simulation.gravity = vector(*found, dimension::acceleration, scene.units);
   if (const Value* initial = section->find("initial"))

@@ -33,13 +33,21 @@ struct SignalOn {
   Signal signal;
 };
 
+/// What a body's modes do in motion: everything; bend it without moving its ports or shifting its mass; nothing.
+enum class Flexibility { full, dropped, rigid };
+
 struct SceneSimulation {
   std::optional<double> time, step, tolerance, sample;  ///< [s], relative
   std::string method;                                   ///< "" when not said
-  bool dropped = false;                                 ///< deformation: dropped
+  std::map<std::string, Flexibility> deformation;       ///< of bodies; full where none is said
   Vec3 gravity = Vec3::Zero();                          ///< world axes [m/s²]
   std::vector<InitialMotion> initial;
   std::vector<SignalOn> forces;
+
+  Flexibility of(const std::string& body) const {
+    const auto found = deformation.find(body);
+    return found == deformation.end() ? Flexibility::full : found->second;
+  }
 };
 
 /// As read_scene(), and takes a gravity in `run`, which the linear commands would drop and therefore refuse.

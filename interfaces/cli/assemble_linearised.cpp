@@ -95,8 +95,7 @@ void print_people(const AssembleOptions& options, const assembly::LinearisedNetw
 int run_linearised(const AssembleOptions& options) {
   const assembly::Scene scene = assembly::read_scene(options.scene);
   const assembly::SceneSimulation section = assembly::read_simulation(scene);
-  assembly::Plan plan = assembly::plan(scene);
-  for (assembly::BodyPlan& body : plan.bodies) body.options.nonlinear = !section.dropped && moves(section);
+  const assembly::Plan plan = moves(section) ? assembly::plan_motion(scene, section) : assembly::plan(scene);
   assembly::Network network;
   {
     ProgressBar bar;

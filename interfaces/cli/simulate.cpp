@@ -7,6 +7,7 @@
 
 #include "assembly/build.hpp"
 #include "assembly/integration/checkpoint.hpp"
+#include "assembly/integration/deflection.hpp"
 #include "assembly/integration/simulation.hpp"
 #include "assembly/recursion/stiffening.hpp"
 #include "fem/error.hpp"
@@ -26,6 +27,14 @@ struct Options {
   bool json = false;
 };
 
+/// A body with modes, and how far they moved a port.
+struct Deforming {
+  std::size_t index;
+  std::string name;
+  bool full;  ///< or dropped
+  double deflection = 0.0;
+};
+
 struct Result {
   assembly::IntegrationOptions run;
   std::vector<assembly::Channel> channels;
@@ -34,6 +43,7 @@ struct Result {
   std::vector<std::vector<double>> columns;
   assembly::Integration integration;
   assembly::IntegrationState state;
+  std::vector<Deforming> bodies;
   double moved = 0.0, wall = 0.0;
   std::vector<std::string> notes;
 };
@@ -95,6 +105,25 @@ assembly::IntegrationState resume(const Options& options, const assembly::Multib
   return std::move(checkpoint.state);
 }
 
+std::vector<Deforming> deforming(const assembly::Multibody& system) {
+  std::vector<Deforming> bodies;
+  for (std::size_t k = 0; k < system.bodies.size(); ++k)
+    if (const assembly::HingedBody& body = system.bodies[k]; body.modes() > 0)
+      bodies.push_back({k, body.name, body.deformation == assembly::Deformation::full});
+  return bodies;
+}
+
+/// What the motion left out of bodies whose deformation is dropped, where it is not small.
+void note_deflections(double tolerance, Result& result) {
+  for (const Deforming& body : result.bodies)
+    if (!body.full && body.deflection > tolerance)
+      result.notes.push_back(
+          fmt::format("Body '{}' deformed by {:.2g} of its size while its deformation is dropped: its ports and mass "
+                      "stay where they "
+                      "were, and what follows from them is wrong by about that.",
+                      body.name, body.deflection));
+}
+
 void note_spin(const assembly::Multibody& system, const assembly::SpinRatio& spin, Result& result) {
   if (spin.body < 0 || spin.ratio < 0.1) return;
   result.notes.push_back(fmt::format(
@@ -110,9 +139,7 @@ Result compute(const Options& options) {
   result.run = run_options(options, section);
   ProgressBar bar;
   const auto progress = bar.callback();
-  assembly::Plan plan = assembly::plan(scene);
-  for (assembly::BodyPlan& body : plan.bodies) body.options.nonlinear = !section.dropped;
-  const assembly::Network network = assembly::build_network(scene, plan, progress);
+  const assembly::Network network = assembly::build_network(scene, assembly::plan_motion(scene, section), progress);
   const assembly::Simulation simulation = assembly::make_simulation(network, section);
   const assembly::Multibody& system = simulation.bodies.system;
   if (options.method.empty() && section.method.empty() && result.run.method == assembly::Method::bdf &&
@@ -127,12 +154,15 @@ Result compute(const Options& options) {
   result.channels = recorder.channels();
   result.outputs = recorder.outputs();
   result.columns.resize(result.channels.size());
+  result.bodies = deforming(system);
   assembly::SpinRatio spin;
   const auto observe = [&](const assembly::Sample& sample) {
     const std::vector<double>& row = recorder.record(sample);
     result.t.push_back(sample.t);
     for (std::size_t k = 0; k < row.size(); ++k) result.columns[k].push_back(row[k]);
     if (const auto now = assembly::spin_ratio(system, sample.dynamics.sweeps); now.ratio >= spin.ratio) spin = now;
+    for (Deforming& body : result.bodies)
+      body.deflection = std::max(body.deflection, assembly::deflection(system, body.index, sample.state.q));
     if (progress) progress(sample.t / result.run.until, "integrating");
     return true;
   };
@@ -157,6 +187,7 @@ Result compute(const Options& options) {
   result.wall = std::chrono::duration<double>(Clock::now() - begun).count();
   if (!options.out.empty()) save(result.state);
   note_spin(system, spin, result);
+  note_deflections(scene.requirement.tolerance, result);
   if (result.moved > 1e-9 && options.resume.empty())
     result.notes.push_back(fmt::format("The loops gaped by {:.2g} m at the start and were closed.", result.moved));
   return result;
@@ -233,6 +264,7 @@ Json to_json(const Result& result, const std::vector<std::filesystem::path>& fil
               {"worst_closure_gap_m", i.worst_gap},
               {"wall_s", result.wall},
               {"channels", Json::array()},
+              {"deformation", Json::array()},
               {"notes", result.notes},
               {"files", Json::array()}};
   for (std::size_t k = 0; k < result.channels.size(); ++k) {
@@ -245,8 +277,20 @@ Json to_json(const Result& result, const std::vector<std::filesystem::path>& fil
                                   {"least", *std::min_element(c.begin(), c.end())},
                                   {"most", *std::max_element(c.begin(), c.end())}});
   }
+  for (const Deforming& body : result.bodies)
+    object["deformation"].push_back({{"body", body.name},
+                                     {"taken", body.full ? "full" : "dropped"},
+                                     {"largest_deflection_of_size", body.deflection}});
   for (const auto& file : files) object["files"].push_back(file.string());
   return object;
+}
+
+void print_deformation(const Result& result) {
+  if (result.bodies.empty()) return;
+  Table table({"<body", "<deformation", "largest deflection / size"});
+  for (const Deforming& body : result.bodies)
+    table.row({body.name, body.full ? "full" : "dropped", fmt::format("{:.2g}", body.deflection)});
+  print(table);
 }
 
 int run(const Options& options) {
@@ -273,6 +317,7 @@ int run(const Options& options) {
                fmt::format("{:.6g}", *std::max_element(c.begin(), c.end())), result.channels[k].unit});
   }
   print(table);
+  print_deformation(result);
   if (i.most_iterations > 0)
     print(fmt::format("At most {} iterations a step, {:.3g} on average.", i.most_iterations,
                       static_cast<double>(i.iterations) / static_cast<double>(std::max(1L, i.steps))));

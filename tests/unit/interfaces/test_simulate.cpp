@@ -93,6 +93,31 @@ TEST_F(Simulate, ABladeLagsAsPublished) {
   EXPECT_NEAR(at, 6.760, 0.02);
 }
 
+// What deformation does is said for each body. Under the load of the spin-up, which grows with the radius, the tip
+// turns by 15/11 of its lag over the length (w₀L³/8EI beside 11 w₀L⁴/120EI); tension and swing change that by some per
+// cent.
+TEST_F(Simulate, BodiesDeformAsTheSceneSays) {
+  const auto run = [&](const std::string& level) {
+    std::string scene = blade_scene;
+    scene.replace(scene.find("  time: 8"), 9, "  deformation: " + level + "\n  time: 7");
+    return object("simulate " + folder_.write("blade.yaml", scene).string());
+  };
+  const json full = run("{blade: full}"), dropped = run("dropped"), rigid = run("{hub: full, blade: rigid}");
+  ASSERT_EQ(full["deformation"].size(), 1u);
+  EXPECT_NEAR(full["deformation"][0]["largest_deflection_of_size"].get<double>(), 15.0 / 11.0 * 0.057437, 0.05 * 0.078);
+  EXPECT_EQ(full["notes"].size(), 0u);
+  EXPECT_EQ(dropped["deformation"][0]["taken"], "dropped");
+  EXPECT_THAT(dropped["notes"].dump(), HasSubstr("while its deformation is dropped"));
+  EXPECT_EQ(rigid["deformation"].size(), 0u);
+  for (const json& channel : rigid["channels"])
+    if (channel["name"] == "energy.elastic") EXPECT_EQ(channel["most"].get<double>(), 0.0);
+  std::string scene = blade_scene;
+  scene.replace(scene.find("  time: 8"), 9, "  deformation: {blad: rigid}\n  time: 8");
+  const Ended refused = tenon("simulate " + folder_.write("blade.yaml", scene).string());
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err, HasSubstr("Did you mean 'blade'"));
+}
+
 TEST_F(Simulate, ABladeGoesOnBitForBit) {
   const std::string scene = folder_.write("blade.yaml", blade_scene).string();
   ASSERT_EQ(tenon("simulate " + scene + " --time 2 --out whole").status, 0);
