@@ -9,7 +9,8 @@ using Eigen::VectorXd;
 using fem::shift_twist;
 using fem::shift_wrench;
 
-DeformedNode deformed_node(const HingedBody& b, int port, const double* eta, const double* eta_dot, Mat6X& Pi) {
+DeformedNode deformed_node(const HingedBody& b, int port, const double* eta, const double* eta_dot,
+                           Eigen::Ref<Mat6X> Pi) {
   const reduction::BodyPort& p = b.body->ports[static_cast<std::size_t>(port)];
   DeformedNode node;
   node.position = p.position - b.body->reference;
