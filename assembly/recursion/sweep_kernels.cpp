@@ -1,25 +1,29 @@
 #include "assembly/recursion/sweep_kernels.hpp"
 
 #include <cmath>
+#include <utility>
 
 namespace tenon::assembly {
 
 namespace plain {
+constexpr int lanes = 2;
 #include "assembly/recursion/sweep_kernels.inc"
-}
+}  // namespace plain
 
 #if defined(__x86_64__)
 #pragma GCC push_options
 #pragma GCC target("avx2,fma")
 namespace avx2 {
+constexpr int lanes = 4;
 #include "assembly/recursion/sweep_kernels.inc"
-}
+}  // namespace avx2
 #pragma GCC pop_options
 #pragma GCC push_options
 #pragma GCC target("avx512f,avx512vl,avx512dq,fma")
 namespace avx512 {
+constexpr int lanes = 8;
 #include "assembly/recursion/sweep_kernels.inc"
-}
+}  // namespace avx512
 #pragma GCC pop_options
 #endif
 
