@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "fem/error.hpp"
 #include "fem/mesh.hpp"
@@ -66,29 +67,26 @@ Partition partition(const fem::Structure& structure, const std::string& parent, 
 }
 
 void require_stiffness_path(const fem::Structure& structure, const Partition& parts) {
-  const auto n = static_cast<std::size_t>(structure.n());
-  std::vector<std::vector<int>> above(n);  // row-wise entries of the strictly lower triangle, transposed
-  for (int j = 0; j < structure.n(); ++j)
-    for (fem::SparseMatrix::InnerIterator it(structure.K, j); it; ++it)
-      if (it.row() != j && it.value() != 0.0) above[static_cast<std::size_t>(it.row())].push_back(j);
-  std::vector<char> reached(n, 0);
-  std::vector<int> front = parts.held;
-  for (const int row : front) reached[static_cast<std::size_t>(row)] = 1;
-  const auto reach = [&](int row) {
-    if (reached[static_cast<std::size_t>(row)]) return;
-    reached[static_cast<std::size_t>(row)] = 1;
-    front.push_back(row);
+  const int n = structure.n();
+  std::vector<int> leader(static_cast<std::size_t>(n));  // of the piece that a row belongs to, by way of others
+  std::iota(leader.begin(), leader.end(), 0);
+  const auto piece = [&leader](int row) {
+    auto at = static_cast<std::size_t>(row);
+    while (leader[at] != static_cast<int>(at)) {
+      const int next = leader[static_cast<std::size_t>(leader[at])];
+      leader[at] = next;
+      at = static_cast<std::size_t>(next);
+    }
+    return static_cast<int>(at);
   };
-  while (!front.empty()) {
-    const int j = front.back();
-    front.pop_back();
+  const auto join = [&](int i, int j) { leader[static_cast<std::size_t>(piece(i))] = piece(j); };
+  for (int j = 0; j < n; ++j)
     for (fem::SparseMatrix::InnerIterator it(structure.K, j); it; ++it)
-      if (it.value() != 0.0) reach(static_cast<int>(it.row()));
-    for (const int i : above[static_cast<std::size_t>(j)]) reach(i);
-  }
+      if (it.value() != 0.0) join(static_cast<int>(it.row()), j);
+  for (const int row : parts.held) join(row, parts.held.front());
   std::vector<int> loose;
-  for (std::size_t row = 0; row < n; ++row)
-    if (!reached[row]) loose.push_back(static_cast<int>(row));
+  for (int row = 0; row < n; ++row)
+    if (piece(row) != piece(parts.held.front())) loose.push_back(row);
   if (loose.empty()) return;
   throw ModelError(
       fmt::format("{} of {} dofs have no stiffness path to parent port '{}': {}", loose.size(), n,
@@ -98,12 +96,12 @@ void require_stiffness_path(const fem::Structure& structure, const Partition& pa
 
 void require_free_body(const fem::Structure& structure, const Eigen::MatrixXd& R) {
   std::vector<int> rows;
+  const fem::SparseMatrix size = structure.K.cwiseAbs();
+  const Eigen::MatrixXd force = symmetric_product(structure.K, R), scale = symmetric_product(size, R.cwiseAbs());
   for (Eigen::Index c = 0; c < R.cols(); ++c) {
-    const Eigen::VectorXd force = symmetric_product(structure.K, R.col(c)),
-                          scale = absolute_product(structure.K, R.col(c));
-    const double floor = held_to_ground * 1e-6 * scale.maxCoeff();
-    for (Eigen::Index i = 0; i < force.size(); ++i)
-      if (std::abs(force[i]) > held_to_ground * scale[i] + floor) rows.push_back(static_cast<int>(i));
+    const double floor = held_to_ground * 1e-6 * scale.col(c).maxCoeff();
+    for (Eigen::Index i = 0; i < force.rows(); ++i)
+      if (std::abs(force(i, c)) > held_to_ground * scale(i, c) + floor) rows.push_back(static_cast<int>(i));
   }
   std::sort(rows.begin(), rows.end());
   rows.erase(std::unique(rows.begin(), rows.end()), rows.end());

@@ -18,11 +18,11 @@ namespace tenon::reduction {
 namespace {
 
 // rows of T V at a port, zero where its node has no such dof
-Mat6X port_shapes(const std::array<int, 6>& rows, const Eigen::MatrixXd& TV) {
-  Mat6X Phi = Mat6X::Zero(6, TV.cols());
+Mat6X port_shapes(const std::array<int, 6>& rows, const Eigen::MatrixXd& T, const Eigen::MatrixXd& V) {
+  Mat6X at_port = Mat6X::Zero(6, T.cols());
   for (int d = 0; d < 6; ++d)
-    if (const int row = rows[static_cast<std::size_t>(d)]; row >= 0) Phi.row(d) = TV.row(row);
-  return Phi;
+    if (const int row = rows[static_cast<std::size_t>(d)]; row >= 0) at_port.row(d) = T.row(row);
+  return at_port * V;
 }
 
 bool children_free(Basis basis) {
@@ -125,7 +125,6 @@ ReducedBody reduce(const fem::Structure& structure, const std::string& parent, c
   RelativeForm relative{space.K_zz, transposed_product(space.T, MT), transposed_product(space.T, MR)};
   relative.M_zz = 0.5 * (relative.M_zz + relative.M_zz.transpose()).eval();
   const ModalForm modal = modal_form(relative);
-  const Eigen::MatrixXd TV = product(space.T, modal.V);
 
   ReducedBody body;
   body.reference = reference;
@@ -137,15 +136,18 @@ ReducedBody reduce(const fem::Structure& structure, const std::string& parent, c
   body.D = 0.5 * (D + D.transpose());
   for (std::size_t k = 0; k < structure.ports.size(); ++k) {
     const fem::Port& port = structure.ports[k];
-    body.ports.push_back(
-        {port.name, structure.nodes[static_cast<std::size_t>(port.node)], port.axes, port_shapes(parts.ports[k], TV)});
+    body.ports.push_back({port.name, structure.nodes[static_cast<std::size_t>(port.node)], port.axes,
+                          port_shapes(parts.ports[k], space.T, modal.V)});
   }
-  if (options.keep_shapes) {
-    body.node_positions = structure.nodes;
-    body.node_shapes = structure.dofs.expand(TV);
+  if (options.keep_shapes || options.nonlinear) {
+    const Eigen::MatrixXd shapes = product(space.T, modal.V);
+    if (options.keep_shapes) {
+      body.node_positions = structure.nodes;
+      body.node_shapes = structure.dofs.expand(shapes);
+    }
+    if (options.nonlinear)
+      body.shape_integrals = std::make_shared<const ShapeIntegrals>(shape_integrals(structure, shapes, reference));
   }
-  if (options.nonlinear)
-    body.shape_integrals = std::make_shared<const ShapeIntegrals>(shape_integrals(structure, TV, reference));
   Certificate& c = body.certificate;
   c.basis = contents(parts, space, basis, parent);
   c.nodes = static_cast<int>(structure.nodes.size());

@@ -72,19 +72,15 @@ fem::SparseMatrix principal(const fem::SparseMatrix& A, const std::vector<int>& 
   std::vector<int> place(static_cast<std::size_t>(A.rows()), -1);
   for (std::size_t k = 0; k < keep.size(); ++k) place[static_cast<std::size_t>(keep[k])] = static_cast<int>(k);
   const auto n = static_cast<int>(keep.size());
-  std::vector<int> start{0}, rows;
-  std::vector<double> values;
+  fem::SparseMatrix B(n, n);
+  B.reserve(A.nonZeros());
   for (int j = 0; j < n; ++j) {
-    for (fem::SparseMatrix::InnerIterator it(A, keep[static_cast<std::size_t>(j)]); it; ++it) {
-      const int i = place[static_cast<std::size_t>(it.row())];
-      if (i < 0) continue;
-      rows.push_back(i);
-      values.push_back(it.value());
-    }
-    start.push_back(static_cast<int>(rows.size()));
+    B.startVec(j);
+    for (fem::SparseMatrix::InnerIterator it(A, keep[static_cast<std::size_t>(j)]); it; ++it)
+      if (const int i = place[static_cast<std::size_t>(it.row())]; i >= 0) B.insertBack(i, j) = it.value();
   }
-  return Eigen::Map<const fem::SparseMatrix>(n, n, static_cast<Eigen::Index>(rows.size()), start.data(), rows.data(),
-                                             values.data());
+  B.finalize();
+  return B;
 }
 
 }  // namespace tenon::reduction

@@ -11,8 +11,8 @@
 #include <cstdlib>
 #include <memory>
 
-#include "assembly/recursion/cost.hpp"
 #include "interfaces/cli/commands.hpp"
+#include "interfaces/cli/cost.hpp"
 #include "interfaces/cli/output.hpp"
 
 namespace tenon::cli {
@@ -93,52 +93,22 @@ int run(bool json) {
   return done;
 }
 
-/// Section 8 of the spatial-operator paper: what forward dynamics of a chain costs, counted and measured here.
-int run_cost(int bodies, bool json) {
-  Json object{{"bodies", bodies}, {"chains", Json::array()}};
-  Table table(
-      {"modes", "composite [flop]", "articulated", "ratio", "composite [us]", "articulated", "ratio", "<cheaper here"});
-  for (const int modes : {0, 1, 2, 3, 5, 7, 8, 10, 15}) {
-    const double composite = assembly::composite_flops(bodies, modes).total(),
-                 articulated = assembly::articulated_flops(bodies, modes).total();
-    const assembly::MeasuredCost cost = assembly::measure_cost(assembly::beam_chain(bodies, modes));
-    object["chains"].push_back({{"modes", modes},
-                                {"composite_flops", composite},
-                                {"articulated_flops", articulated},
-                                {"counted_ratio", composite / articulated},
-                                {"composite_s", cost.composite},
-                                {"articulated_s", cost.articulated},
-                                {"measured_ratio", cost.composite / cost.articulated},
-                                {"cheaper", cost.articulated_is_cheaper() ? "articulated" : "composite"}});
-    table.row({fmt::format("{}", modes), fmt::format("{:.0f}", composite), fmt::format("{:.0f}", articulated),
-               fmt::format("{:.2f}", composite / articulated), fmt::format("{:.4g}", 1e6 * cost.composite),
-               fmt::format("{:.4g}", 1e6 * cost.articulated), fmt::format("{:.2f}", cost.composite / cost.articulated),
-               cost.articulated_is_cheaper() ? "articulated" : "composite"});
-  }
-  if (json) {
-    print(object);
-    return done;
-  }
-  print(
-      fmt::format("Forward dynamics of a chain of {} flexible bodies, counted (section 8 of Jain and Rodriguez) and "
-                  "measured:",
-                  bodies));
-  print(table);
-  return done;
-}
-
 }  // namespace
 
 void add_doctor(CLI::App& program, int& status) {
-  const auto json = std::make_shared<bool>(false), cost = std::make_shared<bool>(false);
-  const auto bodies = std::make_shared<int>(10);
+  const auto options = std::make_shared<CostOptions>();
+  const auto cost = std::make_shared<bool>(false);
   CLI::App* command = program.add_subcommand("doctor", "versions, libraries, BLAS kernel, threads, licence effect");
-  command->add_flag("--json", *json, "one JSON object");
-  command->add_flag("--cost", *cost,
-                    "operations and seconds of forward dynamics, composite against articulated bodies");
-  command->add_option("--bodies", *bodies, "of the chain of --cost")->check(CLI::Range(1, 1000))->capture_default_str();
-  command->footer("Example: tenon doctor --cost");
-  command->callback([=, &status] { status = *cost ? run_cost(*bodies, *json) : run(*json); });
+  command->add_flag("--json", options->json, "one JSON object");
+  CLI::Option* costs = command->add_flag(
+      "--cost", *cost, "operations and seconds of forward dynamics, composite against articulated bodies");
+  command->add_option("--bodies", options->bodies, "of the chains of --cost")
+      ->check(CLI::Range(1, 1000))
+      ->needs(costs)
+      ->capture_default_str();
+  command->add_option("--svg", options->svg, "write the ratios of --cost as a picture")->needs(costs);
+  command->footer("Example: tenon doctor --cost --bodies 2 10 100 --svg cost.svg");
+  command->callback([=, &status] { status = *cost ? run_cost(*options) : run(options->json); });
 }
 
 }  // namespace tenon::cli

@@ -162,14 +162,16 @@ std::string to_svg(const Plot& plot) {
                      height - 18, escaped(plot.x_label));
   svg += fmt::format("<text transform=\"translate(24 {:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
                      (top + height - bottom) / 2, escaped(plot.y_label));
+  std::size_t longest = 0;
+  for (const Curve& curve : plot.curves) longest = std::max(longest, curve.name.size());
+  const double legend = width - right - std::max(170.0, 46.0 + 7.5 * static_cast<double>(longest));
   if (plot.curves.size() > 1)
     for (std::size_t k = 0; k < plot.curves.size(); ++k) {
       const double row = top + 20 + 18 * static_cast<double>(k);
       svg += fmt::format(
           "<line x1=\"{0}\" y1=\"{1}\" x2=\"{2}\" y2=\"{1}\" stroke=\"{3}\" stroke-width=\"2.4\"/>"
           "<text x=\"{4}\" y=\"{5}\">{6}</text>\n",
-          width - right - 170, row, width - right - 144, colours[k % colours.size()], width - right - 136, row + 4,
-          escaped(plot.curves[k].name));
+          legend, row, legend + 26, colours[k % colours.size()], legend + 34, row + 4, escaped(plot.curves[k].name));
     }
   return svg + "</svg>\n";
 }

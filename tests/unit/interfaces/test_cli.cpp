@@ -332,6 +332,15 @@ TEST_F(Cli, DoctorSaysWhatIsLinkedAndUnderWhichTerms) {
   EXPECT_THAT(doctor["licence"]["binary"].get<std::string>(), HasSubstr("GPL"));
 }
 
+TEST_F(Cli, DoctorCountsAndMeasuresForwardDynamics) {
+  const json cost = object("doctor --cost --bodies 2 --svg cost.svg");
+  ASSERT_EQ(cost["chains"].size(), 16u);  // 0 to 15 modes
+  const json& chain = cost["chains"][10];
+  EXPECT_NEAR(chain["counted_ratio"].get<double>(), 1.07, 5e-3);  // 19,579 / 18,280 by the polynomials of section 8
+  EXPECT_GT(chain["articulated_s"].get<double>(), 0.0);
+  EXPECT_THAT(text(folder_.path() / "cost.svg"), HasSubstr("2 bodies, measured"));
+}
+
 TEST_F(Cli, HelpEndsWithStatusZeroAndAnExample) {
   EXPECT_EQ(tenon("--help").status, 0);
   for (const char* command :
