@@ -250,7 +250,7 @@ void accelerate(const Multibody& system, Sweeps& sweeps, VectorXd& v_dot) {
   Vec6 base = Vec6::Zero();
   if constexpr (Motion) base.head<3>() = -system.gravity;
   for (std::size_t k = 0; k < sweeps.bodies.size(); ++k) {
-    if (sweeps.large) fetch_ahead(sweeps, k, 1, dynamic_head);
+    if (sweeps.large) fetch_ahead(sweeps, k, 1, dynamics_reach);
     accelerate<Motion>(system, base, k, sweeps, v_dot);
   }
 }
@@ -259,7 +259,7 @@ void accelerate(const Multibody& system, Sweeps& sweeps, VectorXd& v_dot) {
 template <class Pass>
 void inward(const Sweeps& sweeps, const Pass& pass) {
   for (std::size_t k = sweeps.bodies.size(); k-- > 0;) {
-    if (sweeps.large) fetch_ahead(sweeps, k, -1, dynamic_head);
+    if (sweeps.large) fetch_ahead(sweeps, k, -1, dynamics_reach);
     pass(k);
   }
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <vector>
 
 #include "assembly/recursion/multibody.hpp"
@@ -95,12 +97,16 @@ struct Sweeps {
   std::vector<CacheLine> store;
 };
 
-/// Bytes at the head of a record that eqs (63) and (64) read, and that set_state() does.
-inline constexpr std::size_t dynamic_head = 512, motion_head = 832;
+/// What a pass reads of a body, bytes from the head of its record and of its blocks.
+struct Reach {
+  std::size_t record, blocks;
+};
+inline constexpr Reach dynamics_reach{512, std::size_t{1} << 20},  ///< eqs (63) and (64)
+    motion_reach{832, 256};                                        ///< set_state()
 
 /// Asks for what a pass in the direction of `step` (±1) will need of the bodies ahead: records early enough to know
 /// where their blocks are.
-inline void fetch_ahead(const Sweeps& sweeps, std::size_t k, std::ptrdiff_t step, std::size_t head) {
+inline void fetch_ahead(const Sweeps& sweeps, std::size_t k, std::ptrdiff_t step, const Reach& reach) {
   constexpr std::ptrdiff_t records = 6, blocks = 3;  // bodies ahead
   const auto fetch = [](const void* from, std::size_t bytes) {
     for (std::size_t i = 0; i < bytes; i += 64) __builtin_prefetch(static_cast<const char*>(from) + i);
@@ -109,8 +115,9 @@ inline void fetch_ahead(const Sweeps& sweeps, std::size_t k, std::ptrdiff_t step
     const auto at = k + static_cast<std::size_t>(step * ahead);
     return at < sweeps.bodies.size() ? &sweeps.bodies[at] : nullptr;
   };
-  if (const BodySweep* s = body(records)) fetch(s, head);
-  if (const BodySweep* s = body(blocks)) fetch(s->H_F.data(), static_cast<std::size_t>(s->stored) * sizeof(double));
+  if (const BodySweep* s = body(records)) fetch(s, reach.record);
+  if (const BodySweep* s = body(blocks))
+    fetch(s->H_F.data(), std::min(reach.blocks, static_cast<std::size_t>(s->stored) * sizeof(double)));
 }
 
 }  // namespace tenon::assembly

@@ -109,7 +109,7 @@ void set_state(const Multibody& system, const VectorXd& q, const VectorXd& v, Sw
   ground.V.setZero();
   ground.alpha_bias.setZero();
   for (std::size_t k = 0; k < system.bodies.size(); ++k) {
-    if (sweeps.large) fetch_ahead(sweeps, k, 1, motion_head);
+    if (sweeps.large) fetch_ahead(sweeps, k, 1, motion_reach);
     BodySweep& s = sweeps.bodies[k];
     const auto p = static_cast<std::size_t>(s.parent);
     if (s.parent < 0) ground.world.r = system.bodies[k].inner_position;
