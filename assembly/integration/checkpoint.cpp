@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "assembly/integration/signature.hpp"
 #include "fem/error.hpp"
 #include "fem/formats/atomic_file.hpp"
 
@@ -41,27 +43,67 @@ VectorXd numbers(const Json& list) {
   return x;
 }
 
-// What a state belongs to: "name hinge modes" of each body.
-Json signature(const Multibody& system) {
+Json traits(const Signature& signature) {
   Json list = Json::array();
-  for (const HingedBody& b : system.bodies) list.push_back(fmt::format("{} {} {}", b.name, name(b.kind), b.modes()));
-  for (const Closure& c : system.closures) list.push_back(fmt::format("{} closure {}", c.name, name(c.kind)));
+  for (const Trait& t : signature.traits) list.push_back({t.of, t.what, hex(t.sum), hex(t.size)});
   return list;
+}
+
+// The system is the one that the file was written of.
+void check_system(const Json& file, const Place& place, const Multibody& system) {
+  constexpr const char* cure = "Continue the scene it was taken from";
+  const Signature now = signature(system);
+  if (file.at("system") != Json(now.structure))
+    throw InputError(place, "belongs to other bodies, joints or modes", cure);
+  const Json& before = file.at("data");
+  for (std::size_t k = 0; k < now.traits.size(); ++k) {
+    const Json& row = before.at(k);
+    const Trait was{row.at(0).get<std::string>(), row.at(1).get<std::string>(), number(row.at(2)), number(row.at(3))};
+    if (!same(was, now.traits[k]))
+      throw InputError(
+          place, fmt::format("{} has another {} than when this was written", now.traits[k].of, now.traits[k].what),
+          cure);
+  }
+}
+
+void check_numbers(const IntegrationState& s, const Place& place, const Multibody& system) {
+  Dynamics dynamics = make_dynamics(system);
+  const auto demand = [&](bool good, const char* what) {
+    if (!good) throw InputError(place, fmt::format("holds {}", what), "Take another checkpoint, or start anew");
+  };
+  demand(s.at.v_dot.size() == system.nv && s.at.a.size() == system.nv && s.lambda.size() == dynamics.rows.rows(),
+         "accelerations or forces of another size");
+  demand(s.at.v_dot.allFinite() && s.at.a.allFinite() && s.lambda.allFinite(), "accelerations that are no numbers");
+  bool times = s.steps >= 0 && s.samples >= 0 && s.t >= s.begin && s.seen >= s.begin;
+  for (const double x : {s.begin, s.t, s.seen}) times = times && std::isfinite(x);
+  for (const double x : {s.h, s.step, s.sample, s.error, s.energy}) times = times && std::isfinite(x) && x >= 0.0;
+  demand(times, "times, steps or counts that no run has");
+  try {
+    check_state(dynamics, s.at.motion);
+  } catch (const ModelError& fault) {
+    throw ModelError(place.file, fault);
+  }
 }
 
 }  // namespace
 
 void write_checkpoint(const std::filesystem::path& path, const Multibody& system, const Checkpoint& checkpoint) {
   const IntegrationState& s = checkpoint.state;
+  const Signature now = signature(system);
   const Json file{{"format", kind},
                   {"version", version},
                   {"method", name(checkpoint.method)},
-                  {"system", signature(system)},
+                  {"tolerance", {hex(checkpoint.tolerance.relative), hex(checkpoint.tolerance.absolute)}},
+                  {"system", now.structure},
+                  {"data", traits(now)},
                   {"steps", s.steps},
                   {"samples", s.samples},
                   {"begin_s", hex(s.begin)},
                   {"t_s", hex(s.t)},
+                  {"seen_s", hex(s.seen)},
                   {"step_s", hex(s.h)},
+                  {"step_asked_s", hex(s.step)},
+                  {"sample_s", hex(s.sample)},
                   {"error", hex(s.error)},
                   {"energy_j", hex(s.energy)},
                   {"q", hex(s.at.motion.q)},
@@ -84,21 +126,24 @@ Checkpoint read_checkpoint(const std::filesystem::path& path, const Multibody& s
     if (file.at("version") != version)
       throw InputError(place, fmt::format("has version {} where {} is read", file.at("version").dump(), version),
                        "Continue with the program that wrote it, or start anew");
-    if (file.at("system") != signature(system))
-      throw InputError(place, "belongs to other bodies, hinges or modes", "Continue the scene it was taken from");
-    Checkpoint c{method_named(file.at("method").get<std::string>()), {}};
+    check_system(file, place, system);
+    Checkpoint c{method_named(file.at("method").get<std::string>()),
+                 {number(file.at("tolerance").at(0)), number(file.at("tolerance").at(1))},
+                 {}};
     IntegrationState& s = c.state;
     s.steps = file.at("steps").get<long>();
     s.samples = file.at("samples").get<long>();
     s.begin = number(file.at("begin_s"));
     s.t = number(file.at("t_s"));
+    s.seen = number(file.at("seen_s"));
     s.h = number(file.at("step_s"));
+    s.step = number(file.at("step_asked_s"));
+    s.sample = number(file.at("sample_s"));
     s.error = number(file.at("error"));
     s.energy = number(file.at("energy_j"));
     s.at = {{numbers(file.at("q")), numbers(file.at("v"))}, numbers(file.at("v_dot")), numbers(file.at("a"))};
     s.lambda = numbers(file.at("lambda"));
-    if (s.at.motion.q.size() != system.nq || s.at.motion.v.size() != system.nv)
-      throw InputError(place, "holds a state of another size", "Continue the scene it was taken from");
+    check_numbers(s, place, system);
     return c;
   } catch (const nlohmann::json::exception& fault) {
     throw InputError(place, fmt::format("is no checkpoint ({})", fault.what()), "Give a file that a simulation wrote");

@@ -7,7 +7,7 @@
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
 #include <cmath>
-#include <optional>
+#include <functional>
 
 #include "fem/error.hpp"
 
@@ -43,7 +43,10 @@ struct Problem {
   MotionState state;
   VectorXd v_dot;
   Sweeps matrix;  ///< of the preconditioner
-  VectorXd bias{}, force{}, x{}, zero{};
+  ClosureRows rows{};
+  ClosureInertia inertia{};
+  double worst_gap = 0.0;  ///< before projection [m]
+  VectorXd bias{}, force{}, x{}, zero{}, lambda{};
   std::string fault{};
 
   Eigen::Map<VectorXd> map(N_Vector y) const { return {N_VGetArrayPointer(y), system.nq + system.nv}; }
@@ -116,6 +119,10 @@ int precondition_setup(double, N_Vector y, N_Vector, int, int* current, double g
     p.unpack(y, p.state);
     set_state(p.system, p.state.q, p.state.v, p.matrix);
     articulate(p.system, p.matrix, {gamma, gamma * gamma});
+    if (p.dynamics.loops()) {
+      closure_rows(p.system, p.matrix, p.state.q, p.state.v, p.rows);
+      p.inertia = closure_inertia(p.system, p.matrix, p.rows);
+    }
     inverse_dynamics(p.system, p.matrix, p.zero, p.bias);
     *current = 1;
   });
@@ -132,10 +139,26 @@ int precondition(double, N_Vector y, N_Vector, N_Vector r, N_Vector z, double ga
     p.stiffness(r_q, p.state.v);
     p.force -= gamma * p.state.v;
     solve(p.system, p.matrix, p.force, p.x);
+    if (p.dynamics.loops()) {  // what moves beside the loops is r_v alone: J dv = J r_v
+      p.rows.gamma.noalias() = -p.rows.J_t.transpose() * in.tail(p.system.nv);
+      close(p.rows, p.inertia, p.x, p.lambda);
+    }
     auto out = p.map(z);
     out.tail(p.system.nv) = p.x;
     p.rates(p.state.q, gamma * p.x, out.head(p.system.nq));
     out.head(p.system.nq) += r_q;
+  });
+}
+
+// Positions and speeds onto the closed loops: accelerations alone let them drift open.
+int close_loops(double, N_Vector y, N_Vector correction, double, N_Vector, void* data) {
+  return guarded(data, [&](Problem& p) {
+    p.unpack(y, p.state);
+    p.worst_gap = std::max(p.worst_gap, project(p.system, p.dynamics.sweeps, p.dynamics.rows, p.state));
+    auto out = p.map(correction);
+    out.head(p.system.nq) = p.state.q;
+    out.tail(p.system.nv) = p.state.v;
+    out -= p.map(y);
   });
 }
 
@@ -150,18 +173,16 @@ void demand(int flag, const char* what, double t, const Problem& p) {
 
 }  // namespace
 
-void integrate_cvode(const Multibody& system, Dynamics& dynamics, IntegrationState& state,
-                     const IntegrationOptions& options, Integration& result,
-                     const std::function<bool(double t, const MotionState& state)>& observe) {
+void run_cvode(Run& run) {
+  const Multibody& system = run.system;
+  const IntegrationOptions& options = run.options;
+  IntegrationState& state = run.state;
   const bool stiff = options.method == Method::bdf;
-  if (dynamics.loops())
-    throw ModelError(fmt::format("{} takes no closed loops", name(options.method)),
-                     "Use --method dormand-prince, or generalized-alpha with --step");
   Problem p{.system = system,
-            .dynamics = dynamics,
+            .dynamics = run.dynamics,
             .state = state.at.motion,
             .v_dot = VectorXd::Zero(system.nv),
-            .matrix = dynamics.sweeps};
+            .matrix = run.dynamics.sweeps};
   p.bias = p.force = p.x = p.zero = VectorXd::Zero(system.nv);
 
   SUNContext made = nullptr;
@@ -184,6 +205,12 @@ void integrate_cvode(const Multibody& system, Dynamics& dynamics, IntegrationSta
     linear.reset(SUNLinSol_SPGMR(y.get(), SUN_PREC_LEFT, 10, made));
     CVodeSetLinearSolver(cvode, linear.get(), nullptr);
     CVodeSetPreconditioner(cvode, precondition_setup, precondition);
+    if (run.dynamics.loops()) {
+      p.rows = run.dynamics.rows;
+      p.lambda = run.dynamics.lambda;
+      CVodeSetProjFn(cvode, close_loops);
+      CVodeSetProjErrEst(cvode, SUNFALSE);
+    }
   } else {
     nonlinear.reset(SUNNonlinSol_FixedPoint(y.get(), 2, made));
     CVodeSetNonlinearSolver(cvode, nonlinear.get());
@@ -193,60 +220,50 @@ void integrate_cvode(const Multibody& system, Dynamics& dynamics, IntegrationSta
   const auto interpolated = [&](double t) -> const MotionState& {
     demand(CVodeGetDky(cvode, t, 0, at.get()), "its continuous output", t, p);
     p.unpack(at.get(), shown);
+    if (run.dynamics.loops()) project(system, run.dynamics.sweeps, run.dynamics.rows, shown);
     return shown;
   };
   const auto count = [&] {
-    long steps = 0, rejected = 0, iterations = 0;
-    CVodeGetNumSteps(cvode, &steps);
-    CVodeGetNumErrTestFails(cvode, &rejected);
-    CVodeGetNumNonlinSolvIters(cvode, &iterations);
-    result.steps = steps;
-    result.rejected = rejected;
-    result.iterations = iterations;
+    CVodeGetNumSteps(cvode, &run.result.steps);
+    CVodeGetNumErrTestFails(cvode, &run.result.rejected);
+    CVodeGetNumNonlinSolvIters(cvode, &run.result.iterations);
+    run.result.worst_gap = p.worst_gap;
   };
-  bool go_on = true;
-  if (state.samples == 0) go_on = observe(state.t, state.at.motion), state.samples = 1;
+  const long taken = state.steps;
+  run.observe_start();
   double t = state.t;
-  std::vector<double> before(options.events.size());
-  while (go_on && t < options.until && result.steps < options.most_steps) {
+  while (!run.stop && t < options.until && run.may_step()) {
     const double from = t;
-    for (std::size_t k = 0; k < before.size(); ++k) before[k] = options.events[k].value(from, shown);
+    run.watch(from, shown);
+    p.fault.clear();
     const int flag = CVode(cvode, options.until, y.get(), &t, CV_ONE_STEP);
     count();
     demand(flag, "a step", t, p);
-    double end = std::min(t, options.until);
-    std::optional<EventHit> stop;
-    for (std::size_t k = 0; k < before.size(); ++k) {
-      const Event& event = options.events[k];
-      const double after = event.value(t, interpolated(t));
-      if (before[k] == 0.0 || (before[k] > 0.0) == (after > 0.0)) continue;
-      EventHit hit = locate(event, from, t - from, before[k], after,
-                            [&](double step) -> const MotionState& { return interpolated(from + step); });
-      if (event.stop && (!stop || hit.t < stop->t)) stop = hit;
-      result.events.push_back(std::move(hit));
-    }
-    if (stop) end = std::min(end, stop->t);
-    double seen = from;
-    if (options.sample > 0.0) {
-      for (; go_on; ++state.samples) {
-        const double next = state.begin + static_cast<double>(state.samples) * options.sample;
-        if (next > end * (1.0 + 1e-15)) break;
-        seen = std::min(end, next);
-        go_on = observe(seen, interpolated(seen));
+    const auto land = [&](double length) -> const MotionState& { return interpolated(from + length); };
+    const MotionState after = interpolated(t);
+    const auto hit = run.events(from, t - from, after, std::cref(land));
+    const bool last = t >= options.until;
+    double end = hit ? hit->t : std::min(t, options.until);
+    if (options.sample > 0.0)
+      for (; !run.stop; ++state.samples) {
+        const double next = run.sample_time(state.samples);
+        if (hit ? next >= end : next > end * (1.0 + 1e-15)) break;
+        run.observe(std::min(end, next), interpolated(std::min(end, next)));
       }
-    }
-    const bool last = stop || t >= options.until;
-    if (go_on && (options.sample == 0.0 || last) && seen < end) {
-      go_on = observe(end, interpolated(end));
-      ++state.samples;
+    if (run.stop)
+      end = state.seen;
+    else if (hit)
+      run.stop_at(*hit);
+    else if ((options.sample == 0.0 || last) && state.seen < end) {
+      run.observe(end, interpolated(end));
+      if (options.sample == 0.0) ++state.samples;
     }
     state.at.motion = interpolated(end);
     state.t = end;
-    if (stop) {
-      result.stopped_by = stop->name;
-      break;
-    }
-    if (!before.empty()) interpolated(t);  // where the next step's events begin
+    state.steps = taken + run.result.steps;
+    if (run.stop || hit) return;
+    if (run.keep) run.keep(state);
+    interpolated(t);  // where the next step's events begin
   }
 }
 

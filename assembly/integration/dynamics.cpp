@@ -23,6 +23,13 @@ const HingedBody& owner(const Multibody& system, Index speed) {
   return system.bodies[k];
 }
 
+// The closure that a row belongs to.
+const Closure& closure_of(const Multibody& system, Index row) {
+  auto closure = system.closures.begin();
+  while (row >= 6 - hinge_dofs(closure->kind)) row -= 6 - hinge_dofs((closure++)->kind);
+  return *closure;
+}
+
 void require_finite(const Multibody& system, const VectorXd& x, double t, const char* what, const char* cure) {
   for (Index i = 0; i < x.size(); ++i)
     if (!std::isfinite(x[i]))
@@ -113,13 +120,14 @@ void check_state(Dynamics& dynamics, const MotionState& state) {
   set_state(system, state.q, state.v, dynamics.sweeps);
   closure_rows(system, dynamics.sweeps, state.q, state.v, dynamics.rows);
   const double tolerance = 1e-6 * dynamics.rows.length;
-  if (const double gap = dynamics.rows.gap.cwiseAbs().maxCoeff(); gap > tolerance)
-    throw ModelError(fmt::format("the loops gape by {:.3g} m at the start", gap),
-                     "Give hinge positions that close them, or project() the state first");
+  Index row = 0;
+  if (const double gap = dynamics.rows.gap.cwiseAbs().maxCoeff(&row); gap > tolerance)
+    throw ModelError(fmt::format("closure '{}' gapes by {:.3g} m at the start", closure_of(system, row).name, gap),
+                     "Give hinge positions that close the loops, or project() the state first");
   const double speed = std::max(1.0, state.v.cwiseAbs().maxCoeff());
-  if (const double rate = dynamics.rows.rate.cwiseAbs().maxCoeff(); rate > tolerance * speed)
-    throw ModelError(fmt::format("the loops open at {:.3g} m/s at the start", rate),
-                     "Give speeds that keep them closed, or project() the state first");
+  if (const double rate = dynamics.rows.rate.cwiseAbs().maxCoeff(&row); rate > tolerance * speed)
+    throw ModelError(fmt::format("closure '{}' opens at {:.3g} m/s at the start", closure_of(system, row).name, rate),
+                     "Give speeds that keep the loops closed, or project() the state first");
 }
 
 }  // namespace tenon::assembly

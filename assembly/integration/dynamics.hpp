@@ -45,8 +45,8 @@ void increment_rates(const Multibody& system, const Eigen::VectorXd& u, const Ei
 /// Where the three speeds of an attitude stand among the nv, for each body that has one.
 std::vector<int> attitude_offsets(const Multibody& system);
 
-/// Finite numbers, quaternions of unit length, loops closed in position and speed (both within 1e-6 of the system's
-/// size and of the largest speed). Throws ModelError that names the body or the closure.
+/// Finite numbers, unit quaternions, loops closed within 1e-6 of the system's size, in speed of that times the largest
+/// speed or 1/s, whichever is more. Throws ModelError that names the body or the closure.
 void check_state(Dynamics& dynamics, const MotionState& state);
 
 }  // namespace tenon::assembly

@@ -76,7 +76,7 @@ struct Convergence {
   int most_iterations;
   ImplicitWork& work;
   double last = 0.0;
-  /// Throws NumericalError when corrections grow or there are too many.
+  /// Throws NumericalError when a correction is no number or there are too many.
   bool reached(double size2);
 };
 

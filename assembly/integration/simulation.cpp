@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "assembly/recursion/port_motion.hpp"
 #include "fem/error.hpp"
@@ -54,6 +55,17 @@ void set_initial(const Network& network, const InitialMotion& initial, Simulatio
   }
 }
 
+// Bodies whose modes do not feel that the body has moved its mass.
+std::vector<std::string> missing_integrals(const Multibody& system) {
+  std::vector<std::string> notes;
+  for (const HingedBody& b : system.bodies)
+    if (b.modes() > 0 && b.deformation == Deformation::full && !b.body->shape_integrals)
+      notes.push_back(fmt::format(
+          "Body '{}' carries no shape integrals: its deformation moves its ports, but does not shift its mass.",
+          b.name));
+  return notes;
+}
+
 }  // namespace
 
 Loads make_loads(const Network& network, const Simulation& simulation, const SceneSimulation& scene) {
@@ -97,11 +109,12 @@ Loads make_loads(const Network& network, const Simulation& simulation, const Sce
 }
 
 Simulation make_simulation(const Network& network, const SceneSimulation& scene) {
-  Simulation simulation{make_multibody(network), {}, 0.0};
+  Simulation simulation{make_multibody(network), {}, 0.0, {}};
   Multibody& system = simulation.bodies.system;
   system.gravity = scene.gravity;
   if (scene.dropped)
     for (HingedBody& body : system.bodies) body.deformation = Deformation::dropped;
+  simulation.notes = missing_integrals(system);
   simulation.start = rest_state(system);
   for (const InitialMotion& initial : scene.initial) set_initial(network, initial, simulation);
   if (!system.closures.empty()) {
@@ -139,25 +152,39 @@ Recorder::Recorder(const Network& network, const Simulation& simulation)
   }
   for (const char* kind : {"kinetic", "elastic", "gravity", "total"})
     channels_.push_back({fmt::format("energy.{}", kind), "J"});
+  if (sweeps.stiffening)
+    channels_.back().note = channels_[channels_.size() - 3].note = "leaves out the work of geometric stiffening";
   for (const char* axis : {"x", "y", "z"}) channels_.push_back({fmt::format("momentum.{}", axis), "kg m/s"});
   for (const char* axis : {"x", "y", "z"}) channels_.push_back({fmt::format("angular_momentum.{}", axis), "kg m2/s"});
-  if (system.closures.empty()) {
-    for (std::size_t j = 0; j < network.joints.size(); ++j)
-      if (simulation.bodies.hinge[j] >= 0)
-        for (const char* part : {"fx", "fy", "fz", "tx", "ty", "tz"})
-          channels_.push_back(
-              {fmt::format("reaction.{}.{}", network.joints[j].name, part), part[0] == 'f' ? "N" : "N m"});
-  } else {
+  for (const Joint& joint : network.joints)
+    for (const char* part : {"fx", "fy", "fz", "tx", "ty", "tz"})
+      channels_.push_back({fmt::format("reaction.{}.{}", joint.name, part), part[0] == 'f' ? "N" : "N m"});
+  if (!system.closures.empty()) {
     rows_ = make_closure_rows(system);
+    closing_ = Mat6X::Zero(6, static_cast<Index>(system.closures.size()));
     channels_.push_back({"closure_gap", "m"});
   }
+  turned_.resize(network.outputs.size());
   row_.reserve(channels_.size());
+}
+
+// The branch of an angle that is nearest to where the rates of the last sample and of this one lead.
+double Recorder::unwrap(std::size_t output, double angle, double rate, double t) {
+  constexpr double turn = 2.0 * std::numbers::pi;
+  Turned& last = turned_[output];
+  if (last.known) {
+    const double expected = last.angle + 0.5 * (last.rate + rate) * (t - last.t);
+    angle += turn * std::round((expected - angle) / turn);
+  }
+  last = {true, angle, rate, t};
+  return angle;
 }
 
 double Recorder::output(const Output& output, const Sample& sample) {
   const Multibody& system = simulation_.bodies.system;
   const Sweeps& sweeps = sample.dynamics.sweeps;
   const auto which = static_cast<int>(output.quantity);
+  const auto k = static_cast<std::size_t>(&output - network_.outputs.data());
   if (output.joint) {
     const Joint& joint = network_.joints[at(*output.joint)];
     if (const int body = simulation_.bodies.hinge[at(*output.joint)]; body >= 0) {
@@ -172,7 +199,7 @@ double Recorder::output(const Output& output, const Sample& sample) {
     const PortMotion b = port_motion(system, sweeps, sample.state.q, sample.state.v, closure.outer, Vec3::Zero(), Pi_b);
     const Mat3 inner = a.pose.R * closure.inner_axes, R = inner.transpose() * (b.pose.R * closure.outer_axes);
     const Vec3 z = inner.col(2), relative = (b.V - a.V).tail<3>();
-    if (which == 0) return joint.angle + std::atan2(R(1, 0), R(0, 0));
+    if (which == 0) return unwrap(k, joint.angle + std::atan2(R(1, 0), R(0, 0)), z.dot(relative), sample.t);
     if (which == 1) return z.dot(relative);
     Vec6 turn = Vec6::Zero();
     turn.tail<3>() = z;
@@ -183,7 +210,6 @@ double Recorder::output(const Output& output, const Sample& sample) {
     return column_.dot(sample.v_dot) + z.dot((b.bias - a.bias).tail<3>()) + a.V.tail<3>().cross(z).dot(relative);
   }
   const PortRef port = in_system(simulation_, *output.at);
-  const auto k = static_cast<std::size_t>(&output - network_.outputs.data());
   Mat6X Pi = scratch(system, port);
   const PortMotion motion = port_motion(system, sweeps, sample.state.q, sample.state.v, port, Vec3::Zero(), Pi);
   if (which == 1) return motion.V[output.direction];
@@ -207,27 +233,53 @@ const std::vector<double>& Recorder::record(const Sample& sample) {
   row_.insert(row_.end(), {e.kinetic, e.elastic, e.gravity, e.total()});
   const Vec6 p = momentum(system, sweeps, sample.state.v);
   row_.insert(row_.end(), p.begin(), p.end());
-  if (!system.closures.empty()) {
-    closure_rows(system, sweeps, sample.state.q, sample.state.v, rows_);
-    row_.push_back(rows_.gap.cwiseAbs().maxCoeff());
-    return row_;
+  if (!system.closures.empty()) closure_rows(system, sweeps, sample.state.q, sample.state.v, rows_);
+  reactions(sample);
+  if (!system.closures.empty()) row_.push_back(rows_.gap.cwiseAbs().maxCoeff());
+  return row_;
+}
+
+void Recorder::reactions(const Sample& sample) {
+  const Multibody& system = simulation_.bodies.system;
+  Sweeps& sweeps = sample.dynamics.sweeps;
+  const auto port_at = [&](const PortRef& port, const Vec3& place) {
+    Mat6X Pi = port.body < 0 ? Mat6X() : scratch(system, port);
+    return port_motion(system, sweeps, sample.state.q, sample.state.v, port, place, Pi).pose;
+  };
+  const auto load = [&](const PortRef& port, const Vec6& world) {
+    if (port.body < 0) return;
+    const Mat3& R = sweeps.bodies[at(port.body)].world.R;
+    Vec6 wrench;
+    wrench << R.transpose() * world.head<3>(), R.transpose() * world.tail<3>();
+    apply_wrench(system, sample.state.q, port.body, port.port, wrench, sweeps);
+  };
+  Index row = 0;
+  for (std::size_t c = 0; c < system.closures.size(); ++c) {  // loads like any others on the tree
+    const Closure& closure = system.closures[c];
+    const Index count = 6 - hinge_dofs(closure.kind);
+    auto wrench = closing_.col(static_cast<Index>(c));
+    wrench = rows_.on_outer.middleCols(row, count) * sample.dynamics.lambda.segment(row, count);
+    row += count;
+    load(closure.outer, wrench);
+    const Vec3 r = port_at(closure.outer, Vec3::Zero()).r - port_at(closure.inner, closure.inner_position).r;
+    load(closure.inner, -fem::shift_wrench(Vec6(wrench), r));
   }
   inverse_dynamics(system, sweeps, sample.v_dot, T_);  // leaves in z_r what each hinge passes on, about F_k
   for (std::size_t j = 0; j < network_.joints.size(); ++j) {
     const int body = simulation_.bodies.hinge[j];
-    if (body < 0) continue;
-    const BodySweep& s = sweeps.bodies[at(body)];
-    const HingedBody& b = system.bodies[at(body)];
-    Mat6X Pi = scratch(system, {body, b.outer_port});
-    const PortMotion port =
-        port_motion(system, sweeps, sample.state.q, sample.state.v, {body, b.outer_port}, Vec3::Zero(), Pi);
     Vec6 f;
-    f.head<3>() = s.world.R * s.z_r.head<3>();
-    f.tail<3>() = s.world.R * s.z_r.tail<3>() - (port.pose.r - s.world.r).cross(Vec3(f.head<3>()));
-    if (b.reversed) f = -f;  // on the child of the scene's joint
+    if (body >= 0) {
+      const BodySweep& s = sweeps.bodies[at(body)];
+      const HingedBody& b = system.bodies[at(body)];
+      const Vec3 place = port_at({body, b.outer_port}, Vec3::Zero()).r;
+      f.head<3>() = s.world.R * s.z_r.head<3>();
+      f.tail<3>() = s.world.R * s.z_r.tail<3>() - (place - s.world.r).cross(Vec3(f.head<3>()));
+      if (b.reversed) f = -f;  // on the child of the scene's joint
+    } else {
+      f = closing_.col(simulation_.bodies.closure[j]);
+    }
     row_.insert(row_.end(), f.begin(), f.end());
   }
-  return row_;
 }
 
 }  // namespace tenon::assembly

@@ -73,6 +73,7 @@ ClosureRows make_closure_rows(const Multibody& system) {
   ClosureRows r;
   r.gap = r.rate = r.gamma = VectorXd::Zero(rows);
   r.J_t = MatrixXd::Zero(system.nv, rows);
+  r.on_outer = Mat6X::Zero(6, rows);
   r.length = reach(system);
   for (const Closure& c : system.closures)
     for (const PortRef& port : {c.inner, c.outer})
@@ -95,6 +96,7 @@ void closure_rows(const Multibody& system, const Sweeps& sweeps, const VectorXd&
     const Vec3 w_a = a.V.tail<3>(), w_b = b.V.tail<3>();
     const auto add = [&](double gap, double gamma, const Vec6& on_a, const Vec6& on_b) {
       rows.gap[row] = gap;
+      rows.on_outer.col(row) = on_b;
       rows.rate[row] = on_a.dot(a.V) + on_b.dot(b.V);
       rows.gamma[row] = gamma + on_a.dot(a.bias) + on_b.dot(b.bias);
       auto column = rows.J_t.col(row);

@@ -9,11 +9,12 @@ namespace tenon::assembly {
 /// Rows of all closures at a state, translations in m, rotations times the system's size in m. Sized once by
 /// make_closure_rows(); closure_rows() allocates nothing.
 struct ClosureRows {
-  Eigen::VectorXd gap;        ///< m: what is missing in position
-  Eigen::VectorXd rate;       ///< m: J χ
-  Eigen::VectorXd gamma;      ///< m: J̇ χ
-  Eigen::MatrixXd J_t;        ///< nv×m: Jᵀ
-  double length = 1.0;        ///< that weighs rotations [m]
+  Eigen::VectorXd gap;    ///< m: what is missing in position
+  Eigen::VectorXd rate;   ///< m: J χ
+  Eigen::VectorXd gamma;  ///< m: J̇ χ
+  Eigen::MatrixXd J_t;    ///< nv×m: Jᵀ
+  Mat6X on_outer;         ///< 6×m: wrench of a unit multiplier on the outer port, world axes; the inner feels −it
+  double length = 1.0;    ///< that weighs rotations [m]
   std::vector<Mat6X> shapes;  ///< scratch: shapes at the ports
   int rows() const { return static_cast<int>(gap.size()); }
 };

@@ -6,6 +6,7 @@
 #include "assembly/scene/quantity.hpp"
 #include "assembly/scene/read.hpp"
 #include "assembly/scene/schema.hpp"
+#include "assembly/scene/simulation.hpp"
 
 namespace tenon::assembly {
 namespace {
@@ -56,8 +57,8 @@ void check_run(const Value& run, const Units& units) {
   if (const Value* duration = run.find("duration")) positive(*duration, dimension::time, units);
   if (const Value* gravity = run.find("gravity"))
     if (vector(*gravity, dimension::acceleration, units) != Vec3::Zero())
-      throw InputError(gravity->place, "gravity changes the state of rest, which this version takes as unloaded",
-                       "Leave it out or write [0, 0, 0]");
+      throw InputError(gravity->place, "gravity changes the state of rest, which linear models take as unloaded",
+                       "Leave it out, or write it under `simulation`, which only `tenon simulate` reads");
 }
 
 }  // namespace
@@ -90,7 +91,9 @@ Units read_units(const Value& document, const std::filesystem::path& file) {
   return units;
 }
 
-Scene read_scene(const std::filesystem::path& path) {
+namespace {
+
+Scene read(const std::filesystem::path& path, bool moving) {
   const Value document = read_document(path);
   if (document.kind != Value::Kind::map)
     throw InputError(document.place, "this is no scene: it holds no `bodies`",
@@ -107,9 +110,14 @@ Scene read_scene(const std::filesystem::path& path) {
   read_connections(document, scene);
   choose_parent_ports(scene);
   if (const Value* requirement = document.find("requires")) read_requirement(*requirement, scene.requirement);
-  if (const Value* run = document.find("run")) check_run(*run, scene.units);
+  if (const Value* run = document.find("run"); run && !moving) check_run(*run, scene.units);
   return scene;
 }
+
+}  // namespace
+
+Scene read_scene(const std::filesystem::path& path) { return read(path, false); }
+Scene read_moving_scene(const std::filesystem::path& path) { return read(path, true); }
 
 bool is_deck(const std::filesystem::path& file) {
   const std::string extension = file.extension().string();

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/integration/method.hpp"
 #include "fem/mesh.hpp"
 
 namespace tenon::assembly {
@@ -150,7 +151,9 @@ const Schema requirement{"requirements",
                          {{"band", list, "[lowest, highest] frequency that matters, e.g. [0, 20 Hz]"},
                           {"tolerance", scalar, "relative error of frequencies that is accepted"}}};
 
-const Schema run{"a run", {{"duration", scalar, "of a simulation"}, {"gravity", list, "acceleration of gravity"}}};
+const Schema run{"a run",
+                 {{"duration", scalar, "as `time` of `simulation`"},
+                  {"gravity", list, "as that of `simulation`; 0 for linear commands"}}};
 
 const Schema force{"a force",
                    {{"constant", scalar, "a value in the unit of the input"},
@@ -176,7 +179,7 @@ const Schema simulation{"a simulation",
                         {{"time", scalar, "how long"},
                          {"step", scalar, "of methods with fixed steps; the first one of others"},
                          {"tolerance", scalar, "relative, of methods that choose their steps"},
-                         {"method", scalar, "generalized-alpha, midpoint, dormand-prince, bdf or adams"},
+                         {"method", scalar, method_choice},
                          {"sample", scalar, "time between samples"},
                          {"gravity", list, "acceleration of gravity, world axes"},
                          {"deformation", scalar, "full (default): moves ports and shifts mass; dropped: neither"},
@@ -205,7 +208,7 @@ const Schema scene{
      {"inputs", map, "name -> input", false, &inputs},
      {"outputs", map, "name -> output", false, &outputs},
      {"requires", map, "what the scene is for", false, &requirement},
-     {"run", map, "of a simulation", false, &run},
+     {"run", map, "of a simulation, where `simulation` is silent", false, &run},
      {"simulation", map, "large motion, see `tenon simulate`", false, &simulation}}};
 
 unsigned form_of(const Value& value) {

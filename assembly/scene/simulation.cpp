@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "assembly/integration/method.hpp"
 #include "assembly/scene/quantity.hpp"
 #include "assembly/scene/read.hpp"
 #include "fem/mesh.hpp"
@@ -115,6 +116,11 @@ double value(const Signal& s, double t) {
 SceneSimulation read_simulation(const Scene& scene) {
   const Value document = read_document(scene.file);
   SceneSimulation simulation;
+  if (const Value* run = document.find("run")) {
+    if (const Value* found = run->find("duration")) simulation.time = positive(*found, dimension::time, scene.units);
+    if (const Value* found = run->find("gravity"))
+      simulation.gravity = vector(*found, dimension::acceleration, scene.units);
+  }
   const Value* section = document.find("simulation");
   if (!section) return simulation;
   const auto seconds = [&](const char* key, std::optional<double>& to) {
@@ -124,7 +130,7 @@ SceneSimulation read_simulation(const Scene& scene) {
   seconds("step", simulation.step);
   seconds("sample", simulation.sample);
   if (const Value* found = section->find("tolerance")) simulation.tolerance = positive(*found, dimension::none, {});
-  const std::vector<std::string> methods{"generalized-alpha", "midpoint", "dormand-prince", "bdf", "adams"};
+  const std::vector<std::string> methods(method_names.begin(), method_names.end());
   if (const Value* found = section->find("method"))
     simulation.method = methods[static_cast<std::size_t>(choice(*found, methods))];
   if (const Value* found = section->find("deformation")) simulation.dropped = choice(*found, {"full", "dropped"}) == 1;

@@ -44,7 +44,11 @@ struct SceneSimulation {
   std::vector<SignalOn> forces;
 };
 
-/// The section of the scene's file; empty when there is none. Throws InputError like read_scene(), for joints, bodies
+/// As read_scene(), and takes a gravity in `run`, which the linear commands would drop and therefore refuse.
+Scene read_moving_scene(const std::filesystem::path& path);
+
+/// The section of the scene's file, duration and gravity from `run` where it is silent; empty when there is neither.
+/// Throws InputError like read_scene(), for joints, bodies
 /// and inputs that the scene does not have as well.
 SceneSimulation read_simulation(const Scene& scene);
 

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 #include <link.h>
 #include <omp.h>
+#include <sundials/sundials_config.h>
 #include <unistd.h>
+#include <zipconf.h>
 
 #include <Spectra/Util/Version.h>
 #include <Eigen/Core>
@@ -50,6 +52,8 @@ Json collect() {
       {"Spectra", fmt::format("{}.{}.{}", SPECTRA_MAJOR_VERSION, SPECTRA_MINOR_VERSION, SPECTRA_PATCH_VERSION)},
       {"CHOLMOD", fmt::format("{}.{}.{}", CHOLMOD_MAIN_VERSION, CHOLMOD_SUB_VERSION, CHOLMOD_SUBSUB_VERSION)},
       {"MUMPS", MUMPS_VERSION},
+      {"SUNDIALS", SUNDIALS_VERSION},
+      {"libzip", LIBZIP_VERSION},
       {"fmt", FMT_VERSION}};
   object["blas"] = {{"library", loaded("blas")}, {"kernel", blas_kernel()}};
   const char* forced = std::getenv("OPENBLAS_CORETYPE");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <memory>
 
 #include "assembly/build.hpp"
@@ -37,31 +38,61 @@ struct Result {
   std::vector<std::string> notes;
 };
 
+/// Which method when none is named: fixed steps where a step and no tolerance is given, the command line before the
+/// scene.
+assembly::Method choose_method(const Options& options, const assembly::SceneSimulation& scene) {
+  const std::string& named = options.method.empty() ? scene.method : options.method;
+  if (!named.empty()) return assembly::method_named(named);
+  const bool by_line = options.step > 0.0 || options.tolerance > 0.0;
+  const bool fixed = by_line ? options.tolerance == 0.0 : scene.step && !scene.tolerance;
+  return fixed ? assembly::Method::generalized_alpha : assembly::Method::bdf;
+}
+
 /// The command line before the scene, the scene before what we choose.
 assembly::IntegrationOptions run_options(const Options& options, const assembly::SceneSimulation& scene) {
   const auto either = [](double given, const std::optional<double>& written) {
     return given > 0.0 ? given : written.value_or(0.0);
   };
+  const Place place{options.scene.string()};
   assembly::IntegrationOptions run;
   run.until = either(options.time, scene.time);
   if (run.until == 0.0)
-    throw InputError({options.scene.string()}, "no duration is given",
-                     "Add --time T in s, or `simulation: {time: 10}`");
+    throw InputError(place, "no duration is given", "Add --time T in s, or `simulation: {time: 10}`");
   run.step = either(options.step, scene.step);
-  const double tolerance = either(options.tolerance, scene.tolerance);
-  run.tolerance.relative = tolerance > 0.0 ? tolerance : 1e-6;
+  run.method = choose_method(options, scene);
+  const bool fixed = assembly::fixed_steps(run.method);
+  if (fixed && (options.tolerance > 0.0 || (scene.tolerance && options.method.empty() && options.step == 0.0)))
+    throw InputError(
+        place, fmt::format("a tolerance is given, and {} takes fixed steps, whatever their error", name(run.method)),
+        "Leave the tolerance out, or choose --method bdf");
+  if (!fixed) run.tolerance.relative = options.tolerance > 0.0 ? options.tolerance : scene.tolerance.value_or(1e-6);
   run.tolerance.absolute = 1e-2 * run.tolerance.relative;
-  const std::string& method = options.method.empty() ? scene.method : options.method;
-  if (!method.empty())
-    run.method = assembly::method_named(method);
-  else
-    run.method = run.step > 0.0 && tolerance == 0.0 ? assembly::Method::generalized_alpha : assembly::Method::bdf;
   run.sample = either(options.sample, scene.sample);
   if (run.sample == 0.0) run.sample = run.until / 1000.0;
-  if (assembly::fixed_steps(run.method) && run.step == 0.0)
-    throw InputError({options.scene.string()}, fmt::format("{} takes fixed steps and none is given", name(run.method)),
+  if (fixed && run.step == 0.0 && options.resume.empty())
+    throw InputError(place, fmt::format("{} takes fixed steps and none is given", name(run.method)),
                      "Add --step h in s, or choose --method bdf");
   return run;
+}
+
+/// A run that goes on keeps what it began with, unless the command line says otherwise.
+assembly::IntegrationState resume(const Options& options, const assembly::Multibody& system,
+                                  assembly::IntegrationOptions& run) {
+  assembly::Checkpoint checkpoint = assembly::read_checkpoint(options.resume, system);
+  if (!options.method.empty() && checkpoint.method != run.method)
+    throw InputError(
+        {options.resume.string()},
+        fmt::format("was written by {}, and the run would go on by {}", name(checkpoint.method), name(run.method)),
+        fmt::format("Add --method {}", name(checkpoint.method)));
+  if (options.tolerance > 0.0 && assembly::fixed_steps(checkpoint.method))
+    throw InputError({options.resume.string()},
+                     fmt::format("was written by {}, which takes no tolerance", name(checkpoint.method)),
+                     "Leave --tolerance out");
+  run.method = checkpoint.method;
+  if (options.tolerance == 0.0) run.tolerance = checkpoint.tolerance;
+  run.step = options.step;
+  if (options.sample == 0.0) run.sample = checkpoint.state.sample;
+  return std::move(checkpoint.state);
 }
 
 void note_spin(const assembly::Multibody& system, const assembly::SpinRatio& spin, Result& result) {
@@ -73,7 +104,7 @@ void note_spin(const assembly::Multibody& system, const assembly::SpinRatio& spi
 }
 
 Result compute(const Options& options) {
-  const assembly::Scene scene = assembly::read_scene(options.scene);
+  const assembly::Scene scene = assembly::read_moving_scene(options.scene);
   const assembly::SceneSimulation section = assembly::read_simulation(scene);
   Result result;
   result.run = run_options(options, section);
@@ -86,20 +117,12 @@ Result compute(const Options& options) {
   const assembly::Multibody& system = simulation.bodies.system;
   if (options.method.empty() && section.method.empty() && result.run.method == assembly::Method::bdf &&
       !system.closures.empty())
-    result.run.method = assembly::Method::dormand_prince;  // CVODE takes no loops
+    result.run.method = assembly::Method::dormand_prince;  // cheaper while the loops are not stiff
   const assembly::Loads loads = assembly::make_loads(network, simulation, section);
   result.moved = simulation.moved;
-  if (options.resume.empty()) {
-    result.state = assembly::begin(system, simulation.start);
-  } else {
-    assembly::Checkpoint checkpoint = assembly::read_checkpoint(options.resume, system);
-    if (checkpoint.method != result.run.method)
-      throw InputError({options.resume.string()},
-                       fmt::format("was written by {}, and the run would go on by {}", name(checkpoint.method),
-                                   name(result.run.method)),
-                       fmt::format("Add --method {}", name(checkpoint.method)));
-    result.state = std::move(checkpoint.state);
-  }
+  result.notes = simulation.notes;
+  result.state =
+      options.resume.empty() ? assembly::begin(system, simulation.start) : resume(options, system, result.run);
   assembly::Recorder recorder(network, simulation);
   result.channels = recorder.channels();
   result.outputs = recorder.outputs();
@@ -116,12 +139,15 @@ Result compute(const Options& options) {
   using Clock = std::chrono::steady_clock;
   const auto begun = Clock::now();
   auto written = begun;
-  const auto keep =
-      [&](const assembly::IntegrationState& state) {  // every half minute: a long run survives a power cut
-        if (options.out.empty() || Clock::now() - written < std::chrono::seconds(30)) return;
-        written = Clock::now();
-        assembly::write_checkpoint(options.out / "checkpoint.json", system, {result.run.method, state});
-      };
+  const auto save = [&](const assembly::IntegrationState& state) {
+    written = Clock::now();
+    assembly::write_checkpoint(options.out / "checkpoint.json", system,
+                               {result.run.method, result.run.tolerance, state});
+  };
+  // every half minute: after a power cut the state is there to go on from, the rows are not
+  const auto keep = [&](const assembly::IntegrationState& state) {
+    if (!options.out.empty() && Clock::now() - written >= std::chrono::seconds(30)) save(state);
+  };
   if (!options.out.empty()) {
     std::error_code fault;
     std::filesystem::create_directories(options.out, fault);
@@ -129,8 +155,7 @@ Result compute(const Options& options) {
   }
   result.integration = assembly::integrate(system, loads, result.state, result.run, observe, keep);
   result.wall = std::chrono::duration<double>(Clock::now() - begun).count();
-  if (!options.out.empty())
-    assembly::write_checkpoint(options.out / "checkpoint.json", system, {result.run.method, result.state});
+  if (!options.out.empty()) save(result.state);
   note_spin(system, spin, result);
   if (result.moved > 1e-9 && options.resume.empty())
     result.notes.push_back(fmt::format("The loops gaped by {:.2g} m at the start and were closed.", result.moved));
@@ -214,6 +239,7 @@ Json to_json(const Result& result, const std::vector<std::filesystem::path>& fil
     const auto& c = result.columns[k];
     object["channels"].push_back({{"name", result.channels[k].name},
                                   {"unit", result.channels[k].unit},
+                                  {"note", result.channels[k].note},
                                   {"first", c.front()},
                                   {"last", c.back()},
                                   {"least", *std::min_element(c.begin(), c.end())},
@@ -226,8 +252,9 @@ Json to_json(const Result& result, const std::vector<std::filesystem::path>& fil
 int run(const Options& options) {
   const Result result = compute(options);
   const assembly::Integration& i = result.integration;
+  if (result.t.empty() && !i.failure.empty()) throw Error(i.failure);
   if (result.t.empty())
-    throw InputError({options.resume.string()}, fmt::format("the run stands at {:.6g} s already", result.state.t),
+    throw InputError({options.resume.string()}, fmt::format("the run stands at {:.6g} s already", result.state.seen),
                      "Give a later --time");
   std::vector<std::filesystem::path> files;
   if (!options.out.empty()) files = write_files(options, result);
@@ -250,10 +277,22 @@ int run(const Options& options) {
     print(fmt::format("At most {} iterations a step, {:.3g} on average.", i.most_iterations,
                       static_cast<double>(i.iterations) / static_cast<double>(std::max(1L, i.steps))));
   for (const std::string& note : result.notes) print(wrapped(note, 0));
+  for (const assembly::Channel& c : result.channels)
+    if (!c.note.empty()) print(wrapped(fmt::format("{} {}.", c.name, c.note), 0));
   if (!i.failure.empty()) print(wrapped(fmt::format("Incomplete: {}", i.failure), 0));
   for (const auto& file : files) print(fmt::format("Written: {}", file.string()));
   return status;
 }
+
+/// CLI11's own PositiveNumber lets "nan" and "inf" pass.
+const CLI::Validator positive(
+    [](std::string& word) -> std::string {
+      double x = 0.0;
+      return CLI::detail::lexical_cast(word, x) && std::isfinite(x) && x > 0.0
+                 ? ""
+                 : fmt::format("'{}' is no positive number", word);
+    },
+    "POSITIVE");
 
 }  // namespace
 
@@ -261,16 +300,20 @@ void add_simulate(CLI::App& program, int& status) {
   const auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand("simulate", "large motion of a scene over time");
   command->add_option("SCENE", options->scene, "a scene (.yaml, .json), perhaps with `simulation:`")->required();
-  command->add_option("--time", options->time, "until when [s]")->check(CLI::PositiveNumber);
-  command->add_option("--step", options->step, "of methods with fixed steps [s]")->check(CLI::PositiveNumber);
+  command->add_option("--time", options->time, "until when [s]")->check(positive);
+  command->add_option("--step", options->step, "of methods with fixed steps; the first one of others [s]")
+      ->check(positive);
   command
       ->add_option("--tolerance", options->tolerance, "relative, of methods that choose their steps; 1e-6 when absent")
-      ->check(CLI::PositiveNumber);
-  command->add_option(
-      "--method", options->method,
-      "generalized-alpha, midpoint, dormand-prince, bdf or adams; generalized-alpha with --step, else bdf");
-  command->add_option("--sample", options->sample, "time between samples [s]; 1000 samples when absent")
-      ->check(CLI::PositiveNumber);
+      ->check(positive);
+  command->add_option("--method", options->method,
+                      fmt::format("{}; generalized-alpha with a step and no tolerance, else bdf (dormand-prince when "
+                                  "loops close)",
+                                  assembly::method_choice));
+  command
+      ->add_option("--sample", options->sample,
+                   "time between samples [s]; 1000 samples when absent, or as before with --resume")
+      ->check(positive);
   command->add_option("--out", options->out, "a folder for history.csv, history.npz, pictures and checkpoint.json");
   command->add_option("--resume", options->resume, "go on from a checkpoint.json");
   command->add_flag("--json", options->json, "one JSON object");

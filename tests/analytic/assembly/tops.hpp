@@ -22,9 +22,9 @@ struct FreeTop {
   Vec3 I{1.0, 2.0, 3.0};
   double w1 = 2.0, w3 = 1.2;  // of a body that tumbles: Dzhanibekov
 
-  Multibody system(HingeKind kind = HingeKind::free) const {
+  Multibody system() const {
     Multibody mb;
-    mb.bodies.push_back(rigid_on(kind, "top", 5.0, Vec3::Zero(), I.asDiagonal()));
+    mb.bodies.push_back(rigid_on(HingeKind::free, "top", 5.0, Vec3::Zero(), I.asDiagonal()));
     index(mb);
     return mb;
   }
