@@ -69,8 +69,7 @@ void apply_forces(Dynamics& dynamics, double t, const MotionState& state) {
 void accelerations(Dynamics& dynamics, double t, const MotionState& state, VectorXd& v_dot) {
   const Multibody& system = *dynamics.system;
   set_forces(dynamics, t, state);
-  articulate(system, dynamics.sweeps);
-  forward_dynamics(system, dynamics.sweeps, dynamics.T, v_dot);
+  articulated_forward_dynamics(system, dynamics.sweeps, dynamics.T, v_dot);
   if (dynamics.loops()) {
     closure_rows(system, dynamics.sweeps, state.q, state.v, dynamics.rows);
     closure_inertia(system, dynamics.sweeps, dynamics.rows, dynamics.inertia);

@@ -17,13 +17,13 @@ void add_to_parent(const BodySweep& child, BodySweep& parent) {
   for (Index j = 0; j < child.Pi_t.cols(); ++j) {
     const Vec6 W = Gamma * child.Pi_t.col(j);
     for (Index i = 0; i < child.Pi_t.cols(); ++i) parent.L11(i, j) += child.Pi_t.col(i).dot(W);
-    parent.P_rf.col(j).head<6>() += shift_wrench(W, child.to_node);
+    parent.L21.col(j).head<6>() += shift_wrench(W, child.to_node);
   }
 }
 
 // 𝓗(k) [x_f; x_r] into rows first... of a column of the mass matrix
 template <class Column>
-void project(const BodySweep& s, const VectorXd& x_f, const Vec6& x_r, Index first, Column&& column) {
+void project(const BodySweep& s, const BodySweep::Vector& x_f, const Vec6& x_r, Index first, Column&& column) {
   const Index n = s.L11.cols();
   for (Index i = 0; i < n; ++i) column[first + i] = x_f[i] - (s.Pi_F.cols() > 0 ? s.Pi_F.col(i).dot(x_r) : 0.0);
   for (Index j = 0; j < s.H_F.cols(); ++j) column[first + n + j] = s.H_F.col(j).dot(x_r);
@@ -36,7 +36,7 @@ void composite_mass_matrix(const Multibody& system, Sweeps& sweeps, MatrixXd& ma
   for (BodySweep& s : sweeps.bodies) {
     const Index n = s.L11.cols();
     s.L11.topRows(n) = s.M.topLeftCorner(n, n);
-    s.P_rf.topRows<6>() = s.M.bottomLeftCorner(6, n);
+    s.L21.topRows<6>() = s.M.bottomLeftCorner(6, n);
     s.P_rr = s.M.bottomRightCorner<6, 6>();
   }
   for (int k = static_cast<int>(system.bodies.size()) - 1; k >= 0; --k) {  // tip to base
@@ -47,13 +47,13 @@ void composite_mass_matrix(const Multibody& system, Sweeps& sweeps, MatrixXd& ma
       Vec6 x_r = Vec6::Zero();
       if (c < n) {
         s.z_f.head(n) = s.L11.col(c).head(n);
-        x_r = s.P_rf.col(c).head<6>();
+        x_r = s.L21.col(c).head<6>();
         if (s.Pi_F.cols() > 0) {
-          for (Index i = 0; i < n; ++i) s.z_f[i] -= s.P_rf.col(i).head<6>().dot(s.Pi_F.col(c));
+          for (Index i = 0; i < n; ++i) s.z_f[i] -= s.L21.col(i).head<6>().dot(s.Pi_F.col(c));
           x_r.noalias() -= s.P_rr * s.Pi_F.col(c);
         }
       } else {
-        for (Index i = 0; i < n; ++i) s.z_f[i] = s.P_rf.col(i).head<6>().dot(s.H_F.col(c - n));
+        for (Index i = 0; i < n; ++i) s.z_f[i] = s.L21.col(i).head<6>().dot(s.H_F.col(c - n));
         x_r.noalias() = s.P_rr * s.H_F.col(c - n);
       }
       auto column = mass.col(first + c);

@@ -52,8 +52,26 @@ void inverse_dynamics(const Multibody& system, Sweeps& sweeps, const VectorXd& v
   }
 }
 
+namespace {
+
+// Asks for the springs of bodies ahead.
+void fetch_springs(const Multibody& system, std::size_t k) {
+  constexpr std::size_t records = 8, springs = 4;  // bodies ahead
+  if (k + records < system.bodies.size()) {
+    __builtin_prefetch(&system.bodies[k + records].body);
+    __builtin_prefetch(&system.bodies[k + records].stiffness);
+  }
+  if (k + springs < system.bodies.size()) {
+    __builtin_prefetch(system.bodies[k + springs].stiffness.data());
+    __builtin_prefetch(system.bodies[k + springs].damping.data());
+  }
+}
+
+}  // namespace
+
 void passive_forces(const Multibody& system, const VectorXd& q, const VectorXd& v, VectorXd& T) {
   for (std::size_t k = 0; k < system.bodies.size(); ++k) {
+    fetch_springs(system, k);
     const HingedBody& b = system.bodies[k];
     const ReducedBody& body = *b.body;
     const Index n = b.modes(), first = system.v_offset[k], at = system.q_offset[k];
@@ -65,15 +83,19 @@ void passive_forces(const Multibody& system, const VectorXd& q, const VectorXd& 
     if (body.C.size() > 0) T.segment(first, n).noalias() -= body.C * v.segment(first, n);
     const Index r = b.dofs();
     if (r == 0) continue;
-    Vec6 delta, force = Vec6::Zero();
-    displacements(b.kind, q.data() + at + n, delta.data());
-    for (Index j = 0; j < r; ++j) force[j] = -b.stiffness[j] * delta[j];
-    if (hinge_coordinates(b.kind) > r) {  // β = T(φ)ᵀ φ̇ in outboard axes: the torque of ½ φᵀ k φ is T⁻¹ k φ
-      const Vec3 phi = delta.segment<3>(r - 3);
-      const Vec3 torque = fem::rotation_tangent(phi).inverse() * force.segment<3>(r - 3);
-      force.segment<3>(r - 3) = torque;
+    const double *theta = q.data() + at + n, *beta = v.data() + first + n;
+    if (hinge_coordinates(b.kind) == r) {
+      for (Index j = 0; j < r; ++j) T[first + n + j] = -b.stiffness[j] * theta[j] - b.damping[j] * beta[j];
+      continue;
     }
-    for (Index j = 0; j < r; ++j) T[first + n + j] = force[j] - b.damping[j] * v[first + n + j];
+    Vec6 delta, force = Vec6::Zero();
+    displacements(b.kind, theta, delta.data());
+    for (Index j = 0; j < r; ++j) force[j] = -b.stiffness[j] * delta[j];
+    // β = T(φ)ᵀ φ̇ in outboard axes: the torque of ½ φᵀ k φ is T⁻¹ k φ
+    const Vec3 phi = delta.segment<3>(r - 3);
+    const Vec3 torque = fem::rotation_tangent(phi).inverse() * force.segment<3>(r - 3);
+    force.segment<3>(r - 3) = torque;
+    for (Index j = 0; j < r; ++j) T[first + n + j] = force[j] - b.damping[j] * beta[j];
   }
 }
 

@@ -9,7 +9,8 @@ using Eigen::VectorXd;
 using fem::shift_twist;
 using fem::shift_wrench;
 
-DeformedNode deformed_node(const HingedBody& b, int port, const double* eta, const double* eta_dot, Mat6X& Pi) {
+DeformedNode deformed_node(const HingedBody& b, int port, const double* eta, const double* eta_dot,
+                           Eigen::Ref<Mat6X> Pi) {
   const reduction::BodyPort& p = b.body->ports[static_cast<std::size_t>(port)];
   DeformedNode node;
   node.position = p.position - b.body->reference;
@@ -34,7 +35,7 @@ DeformedNode deformed_node(const HingedBody& b, int port, const double* eta, con
   return node;
 }
 
-void to_reference(const Vec3& to_node, Mat6X& Pi) {
+void to_reference(const Vec3& to_node, Eigen::Ref<Mat6X> Pi) {
   for (Index i = 0; i < Pi.cols(); ++i) Pi.col(i).head<3>() -= Pi.col(i).tail<3>().cross(to_node);
 }
 

@@ -15,10 +15,11 @@ struct DeformedNode {
 
 /// Writes the shapes of the node as they are felt now, [ψ; T θ], into Pi (6×n). With deformation dropped Pi is left as
 /// it is (constant) and the node stays where it was. No allocation.
-DeformedNode deformed_node(const HingedBody& body, int port, const double* eta, const double* eta_dot, Mat6X& Pi);
+DeformedNode deformed_node(const HingedBody& body, int port, const double* eta, const double* eta_dot,
+                           Eigen::Ref<Mat6X> Pi);
 
 /// Shapes Π of a node to Π_F = φ*(node, F) Π, as felt at the reference F; `to_node` from there.
-void to_reference(const Vec3& to_node, Mat6X& Pi);
+void to_reference(const Vec3& to_node, Eigen::Ref<Mat6X> Pi);
 
 /// Motion of a port in the world: pose of its body-fixed frame, twist and the part of its acceleration that is there
 /// without χ̇ and gravity, at the port, world axes.

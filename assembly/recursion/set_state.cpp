@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "assembly/recursion/port_motion.hpp"
 #include "assembly/recursion/stiffening.hpp"
 #include "assembly/recursion/sweep_kernels.hpp"
@@ -27,22 +29,38 @@ void set_body_terms(const HingedBody& b, const double* eta, const double* eta_do
 }
 
 // Where a body hangs: pose, twist and a_mR from the state of its parent, eqs (45), (25), for any hinge and nodes that
-// deform.
-void hang(const HingedBody& b, const DeformedNode& t, const Vec6& V_t, Vec6 bias, const double* eta,
-          const double* eta_dot, BodySweep& s) {
-  const double *theta = eta + b.modes(), *beta = eta_dot + b.modes();
+// deform. `eta_p`, `rates_p`: η and η̇ of the parent.
+void hang(const Multibody& system, std::size_t k, const BodySweep& parent, const double* eta_p, const double* rates_p,
+          const double* eta, const double* eta_dot, BodySweep& s) {
+  const HingedBody& b = system.bodies[k];
+  const double *theta = eta + s.n, *beta = eta_dot + s.n;
+
+  // node t: V_t = φ*(p, t) V_p + Π_t η̇_p and the part of its rate that velocities make
+  DeformedNode t;
+  t.position = s.to_node;
+  if (!s.fixed_node) {
+    t = deformed_node(system.bodies[static_cast<std::size_t>(s.parent)], b.inner_port, eta_p, rates_p, s.Pi_t);
+    s.Pi_tT.topRows(s.n_t) = s.Pi_t.transpose();
+    s.to_node = t.position;
+  }
+  Vec6 V_t = shift_twist(parent.V, t.position), bias = Vec6::Zero();
+  for (Index i = 0; i < s.n_t; ++i) V_t += rates_p[i] * s.Pi_t.col(i);
+  const Vec3 w_p = parent.V.tail<3>();
+  bias.head<3>() = w_p.cross(w_p.cross(t.position)) + 2.0 * w_p.cross(t.slide);
+  bias.tail<3>() = w_p.cross(t.turn) + t.turn_rate;
   const Mat3 inner = t.rotation * b.inner_axes;
 
   // across the hinge
-  hinge_motion(b.kind, theta, beta, s.hinge);
-  if (b.reversed) reverse(beta, s.hinge);
+  HingeMotion hinge;
+  hinge_motion(b.kind, theta, beta, hinge);
+  if (b.reversed) reverse(beta, hinge);
   Vec6 rate = Vec6::Zero();
-  for (Index j = 0; j < s.H_F.cols(); ++j) rate += beta[j] * s.hinge.H_star.col(j);
-  const Vec3 d = inner * s.hinge.d, v_h = inner * rate.head<3>(), w_h = inner * rate.tail<3>();
+  for (Index j = 0; j < s.H_F.cols(); ++j) rate += beta[j] * hinge.H_star.col(j);
+  const Vec3 d = inner * hinge.d, v_h = inner * rate.head<3>(), w_h = inner * rate.tail<3>();
   const Vec3 w_t = V_t.tail<3>();
   bias.head<3>() +=
-      bias.tail<3>().cross(d) + w_t.cross(w_t.cross(d)) + 2.0 * w_t.cross(v_h) + inner * s.hinge.bias.head<3>();
-  bias.tail<3>() += w_t.cross(w_h) + inner * s.hinge.bias.tail<3>();
+      bias.tail<3>().cross(d) + w_t.cross(w_t.cross(d)) + 2.0 * w_t.cross(v_h) + inner * hinge.bias.head<3>();
+  bias.tail<3>() += w_t.cross(w_h) + inner * hinge.bias.tail<3>();
 
   // node d and the reference of this body
   DeformedNode own;
@@ -51,12 +69,12 @@ void hang(const HingedBody& b, const DeformedNode& t, const Vec6& V_t, Vec6 bias
     own = deformed_node(b, b.outer_port, eta, eta_dot, s.Pi_F);
     if (b.deformation == Deformation::full) to_reference(own.position, s.Pi_F);
   }
-  s.X.R = inner * s.hinge.R * (own.rotation * b.outer_axes).transpose();
+  s.X.R = inner * hinge.R * (own.rotation * b.outer_axes).transpose();
   s.X.r = d - s.X.R * own.position;
   for (Index j = 0; j < s.H_F.cols(); ++j) {
-    const Vec3 w = s.X.R.transpose() * (inner * s.hinge.H_star.col(j).tail<3>());
+    const Vec3 w = s.X.R.transpose() * (inner * hinge.H_star.col(j).tail<3>());
     s.H_F.col(j).tail<3>() = w;
-    s.H_F.col(j).head<3>() = s.X.R.transpose() * (inner * s.hinge.H_star.col(j).head<3>()) - w.cross(own.position);
+    s.H_F.col(j).head<3>() = s.X.R.transpose() * (inner * hinge.H_star.col(j).head<3>()) - w.cross(own.position);
   }
   s.V = s.X.twist(V_t);
   for (Index j = 0; j < s.H_F.cols(); ++j) s.V += beta[j] * s.H_F.col(j);
@@ -66,65 +84,41 @@ void hang(const HingedBody& b, const DeformedNode& t, const Vec6& V_t, Vec6 bias
   s.a.tail<3>() = s.X.R.transpose() * bias.tail<3>() - w.cross(own.turn) - own.turn_rate;
   s.a.head<3>() = s.X.R.transpose() * bias.head<3>() - s.a.tail<3>().cross(own.position) -
                   w.cross(w.cross(own.position)) - 2.0 * w.cross(own.slide);
+  s.alpha_bias = s.X.twist(shift_twist(parent.alpha_bias, s.to_node)) + s.a;
+  s.world.R.noalias() = parent.world.R * s.X.R;
+  s.world.r = parent.world.r + parent.world.R * (s.to_node + s.X.r);
 }
 
-// The same across a revolute hinge between nodes that do not deform: H_F and the parts of R are constant.
-void hang_plain(const Vec6& V_t, const Vec3& bias, double theta, double rate, BodySweep& s) {
-  s.X.R = s.R_0 + std::cos(theta) * s.R_c + std::sin(theta) * s.R_s;
-  s.X.r.noalias() = -(s.X.R * s.own_node);
-  s.V = s.X.twist(V_t);
-  const Vec3 carried = s.V.tail<3>();
-  s.V += rate * s.H_F.col(0);
-  const Vec3 w = s.V.tail<3>(), turning = carried.cross(Vec3(rate * s.H_F.col(0).tail<3>()));
-  s.a.tail<3>() = turning;
-  s.a.head<3>().noalias() = s.X.R.transpose() * bias;
-  s.a.head<3>() -= turning.cross(s.own_node) + w.cross(w.cross(s.own_node));
-}
+BodyMotion motion_of(BodySweep& s) { return {s.world.R.data(), s.V.data(), s.alpha_bias.data()}; }
 
 }  // namespace
 
 void set_state(const Multibody& system, const VectorXd& q, const VectorXd& v, Sweeps& sweeps) {
+  const SweepKernels& kernels = sweep_kernels();
+  BodySweep ground;
+  ground.V.setZero();
+  ground.alpha_bias.setZero();
   for (std::size_t k = 0; k < system.bodies.size(); ++k) {
-    const HingedBody& b = system.bodies[k];
+    if (sweeps.large) fetch_ahead(sweeps, k, 1, motion_reach);
     BodySweep& s = sweeps.bodies[k];
+    const auto p = static_cast<std::size_t>(s.parent);
+    if (s.parent < 0) ground.world.r = system.bodies[k].inner_position;
+    BodySweep& parent = s.parent < 0 ? ground : sweeps.bodies[p];
     const double *eta = q.data() + system.q_offset[k], *eta_dot = v.data() + system.v_offset[k];
-
-    // node t: V_t = φ*(p, t) V_p + Π_t η̇_p and the part of its rate that velocities make
-    DeformedNode t;
-    Vec6 V_t = Vec6::Zero(), bias = Vec6::Zero();
-    if (b.parent >= 0) {
-      const auto p = static_cast<std::size_t>(b.parent);
-      const BodySweep& parent = sweeps.bodies[p];
-      const double* rates = v.data() + system.v_offset[p];
-      const Vec3 w = parent.V.tail<3>();
-      if (s.fixed_node) {
-        t.position = s.to_node;
-        bias.head<3>() = w.cross(w.cross(t.position));
-      } else {
-        t = deformed_node(system.bodies[p], b.inner_port, q.data() + system.q_offset[p], rates, s.Pi_t);
-        pad_shapes(s);
-        s.to_node = t.position;
-        bias.head<3>() = w.cross(w.cross(t.position)) + 2.0 * w.cross(t.slide);
-        bias.tail<3>() = w.cross(t.turn) + t.turn_rate;
-      }
-      V_t = shift_twist(parent.V, t.position);
-      for (Index i = 0; i < s.Pi_t.cols(); ++i) V_t += rates[i] * s.Pi_t.col(i);
-    }
-    if (s.plain)
-      hang_plain(V_t, bias.head<3>(), eta[b.modes()], eta_dot[b.modes()], s);
-    else
-      hang(b, t, V_t, bias, eta, eta_dot, s);
-
-    if (b.parent >= 0) {
-      const BodySweep& parent = sweeps.bodies[static_cast<std::size_t>(b.parent)];
-      s.alpha_bias = s.X.twist(shift_twist(parent.alpha_bias, s.to_node)) + s.a;
-      s.world.R.noalias() = parent.world.R * s.X.R;
-      s.world.r = parent.world.r + parent.world.R * (s.to_node + s.X.r);
+    if (s.plain) {
+      const double theta = eta[s.n];
+      kernels.hang({s.inner_axes.data(), s.outer_axes.data(), s.to_node.data(), s.own_node.data(), s.H_F.data()},
+                   std::cos(theta), s.sign * std::sin(theta), eta_dot[s.n], motion_of(parent), s.X.R.data(), s.a.data(),
+                   motion_of(s));
     } else {
-      s.alpha_bias = s.a;
-      s.world = {s.X.R, b.inner_position + s.X.r};
+      const double *eta_p = nullptr, *rates_p = nullptr;
+      if (s.parent >= 0) eta_p = q.data() + system.q_offset[p], rates_p = v.data() + system.v_offset[p];
+      hang(system, k, parent, eta_p, rates_p, eta, eta_dot, s);
     }
-    set_body_terms(b, eta, eta_dot, s.V.tail<3>(), s);
+    if (s.n == 0)
+      kernels.rigid_load(s.M.data(), s.V.data(), s.b.data());
+    else
+      set_body_terms(system.bodies[k], eta, eta_dot, s.V.tail<3>(), s);
   }
   if (sweeps.stiffening) add_stiffening(system, q, sweeps);
 }

@@ -27,8 +27,7 @@ struct Ours {
   }
   void run() {
     set_state(mb, s.q, s.v, sweeps);
-    articulate(mb, sweeps);
-    forward_dynamics(mb, sweeps, T, v_dot);
+    articulated_forward_dynamics(mb, sweeps, T, v_dot);
   }
 };
 

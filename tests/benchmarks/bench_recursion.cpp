@@ -22,8 +22,7 @@ void articulated(benchmark::State& state) {
   for (auto _ : state) {
     set_state(mb, s.q, s.v, sweeps);
     passive_forces(mb, s.q, s.v, T);
-    articulate(mb, sweeps);
-    forward_dynamics(mb, sweeps, T, v_dot);
+    articulated_forward_dynamics(mb, sweeps, T, v_dot);
     benchmark::DoNotOptimize(v_dot.data());
   }
   const double calls = static_cast<double>(state.iterations()) * bodies;

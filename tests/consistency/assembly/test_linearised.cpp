@@ -8,6 +8,7 @@
 
 #include "assembly/build.hpp"
 #include "assembly/linearised.hpp"
+#include "assembly/recursion/stiffening.hpp"
 #include "assembly/second_order.hpp"
 #include "tests/reference/networks.hpp"
 #include "tests/refusal.hpp"
@@ -220,6 +221,7 @@ TEST(Linearised, OutputsAboutASpinAreRatesOfWhatIsRecorded) {
       state.v = v0 + h * dv;
       const VectorXd v_dot = a0 + h * da;
       set_state(system, state.q, state.v, dynamics.sweeps);
+      restiffen(system, state.q, a0, dynamics.sweeps);  // stress as of the steady motion's accelerations
       VectorXd force(system.nv), passive(system.nv);
       inverse_dynamics(system, dynamics.sweeps, v_dot, force);
       passive_forces(system, state.q, state.v, passive);

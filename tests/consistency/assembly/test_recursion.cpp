@@ -52,6 +52,9 @@ TEST(Recursion, ArticulatedAndCompositeEqualTheDenseOperators) {
 
     VectorXd acceleration(mb.nv), back(mb.nv), bias(mb.nv);
     forward_dynamics(mb, sweeps, f, acceleration);
+    VectorXd at_once(mb.nv);
+    articulated_forward_dynamics(mb, sweeps, f, at_once);
+    EXPECT_LT(difference(at_once, acceleration), 1e-14) << "seed " << seed;  // the same operations in one sweep
     inverse_dynamics(mb, sweeps, acceleration, back);
     inverse_dynamics(mb, sweeps, VectorXd::Zero(mb.nv), bias);
     const double size = f.norm() + bias.norm();
