@@ -121,7 +121,7 @@ TEST(FourBar, AfloatItsRowsAcrossThePlaneAreRedundant) {
 
 // Held in a plane, a beam of finite elements keeps the mass and all inertias of its section: ρ(Iy + Iz) l about itself.
 TEST(FourBar, PlanarBeamsKeepTheirMassMatrix) {
-  const ReducedBody& crank = four_bar(BeamSource::Model::fe).bodies[1];
+  const ReducedBody crank = four_bar(BeamSource::Model::fe).bodies[1];
   const double rho = 2714.0, A = 1.0774e-4, l = 0.108, m = rho * A * l;
   EXPECT_NEAR(crank.D(0, 0), m, 1e-12 * m);
   EXPECT_NEAR(crank.D(5, 5), m * l * l / 3.0, 1e-9 * m * l * l);

@@ -44,8 +44,8 @@ TEST_F(FiniteMotion, ReducedBodiesCarryWhatLargeMotionNeeds) {
   folder_.write("from_file.yaml", from_file);
   const auto energies = [&](const std::string& file) {
     std::vector<double> values;
-    for (const json& channel : object("simulate " + file + " --time 0.5")["channels"])
-      values.push_back(channel["last"]);
+    const json run = object("simulate " + file + " --time 0.5");
+    for (const json& channel : run["channels"]) values.push_back(channel["last"]);
     return values;
   };
   const std::vector<double> direct = energies(scene), read = energies("from_file.yaml");
