@@ -8,7 +8,8 @@
 
 namespace tenon::fem {
 
-/// A file of the reference truss with two booms (NX Nastran runs), which is no part of a clone of the project.
+/// A file of the reference truss with two booms (NX Nastran runs), which is no part of a clone of the project: it is
+/// read from data/nastran-cb of the folder that TENON_SHARED names.
 inline std::filesystem::path shared_deck(const std::string& name) {
   const char* variable = std::getenv("TENON_SHARED");
   const std::filesystem::path shared =
@@ -21,8 +22,7 @@ class NastranDecks : public ::testing::Test {
  protected:
   void SetUp() override {
     if (!std::filesystem::exists(shared_deck("full.dat")))
-      GTEST_SKIP() << "NX Nastran's decks may not be copied into the project: set TENON_SHARED to the folder of "
-                      "data/nastran-cb";
+      GTEST_SKIP() << "The decks are another program's and may not be copied here. Set TENON_SHARED: see above.";
   }
 };
 
