@@ -10,10 +10,8 @@
 #include "assembly/integration/dynamics.hpp"
 #include "assembly/recursion/linearise.hpp"
 #include "assembly/recursion/stiffening.hpp"
-#include "reduction/geometric_stiffness.hpp"
-#include "reduction/reduce.hpp"
+#include "tests/analytic/assembly/rotating_blade.hpp"
 #include "tests/reference/rotating_beam.hpp"
-#include "tests/unit/reduction/beams.hpp"
 
 namespace tenon::assembly {
 namespace {
@@ -33,22 +31,7 @@ tests::BeamData slender() {
 }
 
 Multibody spinning(const tests::BeamData& data, bool stiffening) {
-  const fem::Model model = tests::beam(data, {{"root", 0}, {"tip", data.elements}});
-  const fem::Structure structure = fem::assemble(model);
-  reduction::ReducedBody body = reduction::reduce(structure, "root", {.modes = 24, .nonlinear = true});
-  body.name = "blade";
-  if (stiffening)
-    body.stiffening =
-        std::make_shared<const reduction::GeometricStiffness>(reduction::geometric_stiffness(model, structure, body));
-  HingedBody blade;
-  blade.name = body.name;
-  blade.body = std::make_shared<const ReducedBody>(body);
-  blade.outer_port = 0;
-  blade.kind = HingeKind::revolute;
-  Multibody system;
-  system.bodies = {blade};
-  index(system);
-  return system;
+  return testing::rotating_blade(data, 24, stiffening);
 }
 
 // Frequencies about the steady spin, the turn itself prescribed.
@@ -127,9 +110,7 @@ TEST(RotatingBeam, AfloatItIsLoadedByWhatItsOwnMotionLeaves) {
   EXPECT_LT((K_G(0.0) - hung).norm(), 1e-12 * hung.norm());
   EXPECT_LT((K_G(spin) - held).norm(), 1e-12 * held.norm());
 
-  system.bodies[0].kind = HingeKind::free;
-  system.bodies[0].stiffness = system.bodies[0].damping = system.bodies[0].inertia = VectorXd();
-  index(system);
+  testing::set_afloat(system);
   EXPECT_LT(K_G(0.0).norm(), 1e-9 * hung.norm());  // round-off of the solve for its acceleration
   const MatrixXd free = expected(0.5 * spin * spin * data.length * Vec3::UnitX(), spin);
   EXPECT_LT((K_G(spin) - free).norm(), 1e-9 * held.norm());
@@ -176,9 +157,7 @@ TEST(RotatingBeam, ForcesAtPortsStressIt) {
   set_forces(dynamics, 0.0, rest_state(system));
   EXPECT_LT((dynamics.sweeps.bodies[0].K_G - pushed).norm(), 1e-6 * pushed.norm());
 
-  system.bodies[0].kind = HingeKind::free;
-  system.bodies[0].stiffness = system.bodies[0].damping = system.bodies[0].inertia = VectorXd();
-  index(system);
+  testing::set_afloat(system);
   MatrixXd expected(n, n);
   const double a = 7.0;
   reduction::geometric_stiffness(*body.stiffening, a * Vec3::UnitX(), Vec3::Zero(), Vec3::Zero(), nullptr, expected);

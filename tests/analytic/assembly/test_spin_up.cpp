@@ -8,9 +8,7 @@
 #include <numbers>
 
 #include "assembly/integration/integrate.hpp"
-#include "reduction/geometric_stiffness.hpp"
-#include "reduction/reduce.hpp"
-#include "tests/unit/reduction/beams.hpp"
+#include "tests/analytic/assembly/rotating_blade.hpp"
 
 namespace tenon::assembly {
 namespace {
@@ -34,23 +32,11 @@ Lag lag(bool stiffening, double until) {
   data.section.A = 1e-3;
   data.section.Iy = data.section.Iz = 7e-8;
   data.section.J = 1.4e-7;
-  const fem::Model model = tests::beam(data, {{"root", 0}, {"tip", data.elements}});
-  const fem::Structure structure = fem::assemble(model);
-  reduction::ReducedBody body = reduction::reduce(structure, "root", {.modes = 6, .nonlinear = true});
-  body.name = "beam";
-  if (stiffening)
-    body.stiffening =
-        std::make_shared<const reduction::GeometricStiffness>(reduction::geometric_stiffness(model, structure, body));
   constexpr double hub = 1e10;  // a rotor so heavy that the beam, 4e-8 of it, does not slow it down
-  HingedBody blade;
-  blade.name = body.name;
-  blade.body = std::make_shared<const ReducedBody>(body);
-  blade.outer_port = 0;
-  blade.kind = HingeKind::revolute;
-  blade.inertia = VectorXd::Constant(1, hub);
-  Multibody system;
-  system.bodies = {blade};
+  Multibody system = testing::rotating_blade(data, 6, stiffening);
+  system.bodies[0].inertia = VectorXd::Constant(1, hub);
   index(system);
+  const ReducedBody& body = *system.bodies[0].body;
   const int n = body.n();
   const Loads drive = [n](double t, const MotionState&, Sweeps&, VectorXd& T) { T[n] += hub * speed_rate(t); };
   const Eigen::RowVectorXd sideways = body.ports[1].Phi.row(1);

@@ -17,6 +17,25 @@ inline HingedBody rigid_on(HingeKind kind, const std::string& name, double mass,
   return b;
 }
 
+/// Falls along z from a height: z = height − g t²/2.
+struct FallingWeight {
+  double height = 2.0, g = 9.81;
+
+  Multibody system() const {
+    Multibody mb;
+    mb.gravity = {0.0, 0.0, -g};
+    mb.bodies.push_back(rigid_on(HingeKind::prismatic, "weight", 2.0, Vec3::Zero(), Mat3::Identity()));
+    index(mb);
+    return mb;
+  }
+  MotionState start(const Multibody& mb) const {
+    MotionState s = rest_state(mb);
+    s.q[0] = height;
+    return s;
+  }
+  double passes(double z) const { return std::sqrt(2.0 * (height - z) / g); }
+};
+
 /// Turns freely about its mass centre (Euler). Start: ω = (ω₁, 0, ω₃) with L² > 2E I₂, I₁ < I₂ < I₃.
 struct FreeTop {
   Vec3 I{1.0, 2.0, 3.0};

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/unit/interfaces/blade_scene.hpp"
 #include "tests/unit/interfaces/program.hpp"
 
 // What commands other than `tenon simulate` do for finite motion, from outside.
@@ -12,33 +13,19 @@ namespace {
 using FiniteMotion = Program;
 
 /// A blade on a flywheel: ρA 1.2, EI 1.4e4, L 10.
-const char* const blade_scene = R"(units: SI
-materials: {m: {E: 2e11, nu: 0.25, rho: 1200}}
-bodies:
-  hub: {rigid: {mass: 1, inertia: [1, 1, 1]}, ports: {base: [0, 0, 0], axle: [0, 0, 0]}}
-  blade:
-    beam:
-      from: [0, 0, 0]
-      to: [10, 0, 0]
-      section: {general: {A: 1e-3, Iy: 7e-8, Iz: 7e-8, J: 1.4e-7}, shear: euler-bernoulli, orientation: [0, 1, 0]}
-      material: m
-      elements: 20
-    reduction: {modes: 6}
-joints: {axle: {parent: hub.axle, child: blade.P, revolute: z, inertia: 1e10}}
-ground: [hub.base]
-inputs: {drive: {at: axle}}
+const std::string blade = tenon::blade_scene(R"(inputs: {drive: {at: axle}}
 outputs: {turn: {at: axle, measure: rate}}
 simulation: {time: 2, step: 0.002, sample: 0.01, forces: {drive: {table: [[0, 0], [1, 4e9], [2, 4e9]]}}}
-)";
+)");
 
 // A body reduced to a file carries what large motion needs: the spun-up blade from its file runs as the blade itself.
 TEST_F(FiniteMotion, ReducedBodiesCarryWhatLargeMotionNeeds) {
-  const std::string scene = folder_.write("blade.yaml", blade_scene).string();
+  const std::string scene = folder_.write("blade.yaml", blade).string();
   ASSERT_EQ(tenon("reduce " + scene + " --body blade -o blade.body.json").status, 0);
   const json body = json::parse(text(folder_.path() / "blade.body.json"));
   EXPECT_TRUE(body["shape_integrals"].is_object());
   EXPECT_TRUE(body["geometric_stiffness"].is_object());
-  std::string from_file = blade_scene;
+  std::string from_file = blade;
   const std::size_t first = from_file.find("  blade:"), last = from_file.find("joints:");
   from_file.replace(first, last - first, "  blade: {reduced: blade.body.json}\n");
   folder_.write("from_file.yaml", from_file);
@@ -76,7 +63,7 @@ TEST_F(FiniteMotion, AssembleLinearisesAboutASpin) {
   for (const auto& [lambda, flap] : {std::pair(0.0, 3.516015), {4.0, 5.585001}, {12.0, 13.17015}}) {
     // slender enough for λ = 12: r²/L² = 3e-11, EI/ρAL⁴ = (2e11)(3e-14)/(1200)(1e-3)(1e4) = 5e-7
     const double unit = std::sqrt(2e11 * 3e-14 / (1200.0 * 1e-3 * 1e4));
-    std::string scene = blade_scene;
+    std::string scene = blade;
     const auto replace = [&](const std::string& from, const std::string& to) {
       ASSERT_NE(scene.find(from), std::string::npos) << from;
       scene.replace(scene.find(from), from.size(), to);

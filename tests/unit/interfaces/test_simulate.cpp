@@ -5,6 +5,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "tests/unit/interfaces/blade_scene.hpp"
 #include "tests/unit/interfaces/program.hpp"
 
 // `tenon simulate` from outside.
@@ -47,34 +48,20 @@ class Simulate : public Program {
 };
 
 /// A blade on a flywheel that is spun up to 6 rad/s in 15 s: the data of REFERENCES' spin-up, ρA 1.2, EI 1.4e4, L 10.
-const char* const blade_scene = R"(units: SI
-materials: {m: {E: 2e11, nu: 0.25, rho: 1200}}
-bodies:
-  hub: {rigid: {mass: 1, inertia: [1, 1, 1]}, ports: {base: [0, 0, 0], axle: [0, 0, 0]}}
-  blade:
-    beam:
-      from: [0, 0, 0]
-      to: [10, 0, 0]
-      section: {general: {A: 1e-3, Iy: 7e-8, Iz: 7e-8, J: 1.4e-7}, shear: euler-bernoulli, orientation: [0, 1, 0]}
-      material: m
-      elements: 20
-    reduction: {modes: 6}
-joints: {axle: {parent: hub.axle, child: blade.P, revolute: z, inertia: 1e10}}
-ground: [hub.base]
-inputs: {drive: {at: axle}, ease: {at: axle}}
+const std::string blade = tenon::blade_scene(R"(inputs: {drive: {at: axle}, ease: {at: axle}}
 outputs: {turn: {at: axle, measure: angle}, tip: {at: blade.C, displacement: [x, y]}}
 simulation:
   time: 8
   step: 0.005
   sample: 0.02
   forces: {drive: 4e9, ease: {sine: -4e9, frequency: 0.0666666666666667 Hz, phase: 90 deg}}
-)";
+)");
 
 // Ω̇ = 0.4 (1 − cos(2πt/15)): the tip lags most at 6.760 s, by 0.57437 m in the linearised equation with centrifugal
 // stiffening, without rotary inertia and stretch (an independent Ritz computation). Those are 1e-3 of it here, as is
 // the nonlinear rest; a row stands every 0.02 s.
 TEST_F(Simulate, ABladeLagsAsPublished) {
-  const std::string scene = folder_.write("blade.yaml", blade_scene).string();
+  const std::string scene = folder_.write("blade.yaml", blade).string();
   const Ended run = tenon("simulate " + scene + " --out run");
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_THAT(run.out, Not(HasSubstr("no geometric stiffening")));  // meshes and beams carry it
@@ -98,7 +85,7 @@ TEST_F(Simulate, ABladeLagsAsPublished) {
 // cent.
 TEST_F(Simulate, BodiesDeformAsTheSceneSays) {
   const auto run = [&](const std::string& level) {
-    std::string scene = blade_scene;
+    std::string scene = blade;
     scene.replace(scene.find("  time: 8"), 9, "  deformation: " + level + "\n  time: 7");
     return object("simulate " + folder_.write("blade.yaml", scene).string());
   };
@@ -113,7 +100,7 @@ TEST_F(Simulate, BodiesDeformAsTheSceneSays) {
     if (channel["name"] != "energy.elastic") continue;
     EXPECT_EQ(channel["most"].get<double>(), 0.0);
   }
-  std::string scene = blade_scene;
+  std::string scene = blade;
   scene.replace(scene.find("  time: 8"), 9, "  deformation: {blad: rigid}\n  time: 8");
   const Ended refused = tenon("simulate " + folder_.write("blade.yaml", scene).string());
   EXPECT_EQ(refused.status, 2);
@@ -121,7 +108,7 @@ TEST_F(Simulate, BodiesDeformAsTheSceneSays) {
 }
 
 TEST_F(Simulate, ABladeGoesOnBitForBit) {
-  const std::string scene = folder_.write("blade.yaml", blade_scene).string();
+  const std::string scene = folder_.write("blade.yaml", blade).string();
   ASSERT_EQ(tenon("simulate " + scene + " --time 2 --out whole").status, 0);
   ASSERT_EQ(tenon("simulate " + scene + " --time 1 --out half").status, 0);
   ASSERT_EQ(tenon("simulate " + scene + " --time 2 --resume half/checkpoint.json --out rest").status, 0);
@@ -210,7 +197,7 @@ TEST_F(Simulate, OptionsThatContradictAreRefused) {
 
 // Beams in closed form come without shape integrals.
 TEST_F(Simulate, BodiesWithoutShapeIntegralsAreNamed) {
-  std::string scene = blade_scene;
+  std::string scene = blade;
   scene.replace(scene.find("elements: 20"), 12, "model: titop-polynomial");
   scene.replace(scene.find("    reduction: {modes: 6}\n"), 26, "");
   const std::string file = folder_.write("closed.yaml", scene).string();
