@@ -11,6 +11,7 @@
 #include "fem/error.hpp"
 #include "fem/formats/atomic_file.hpp"
 #include "reduction/geometric_stiffness.hpp"
+#include "reduction/matrix_rows.hpp"
 #include "reduction/shape_integrals.hpp"
 
 namespace tenon::reduction {
@@ -31,15 +32,7 @@ Json units() {
   return all;
 }
 
-Json to_json(const Eigen::Ref<const Eigen::MatrixXd>& A) {  // a list of rows
-  Json rows = Json::array();
-  for (Eigen::Index i = 0; i < A.rows(); ++i) {
-    Json row = Json::array();
-    for (Eigen::Index j = 0; j < A.cols(); ++j) row.push_back(A(i, j));
-    rows.push_back(std::move(row));
-  }
-  return rows;
-}
+Json to_json(const Eigen::Ref<const Eigen::MatrixXd>& A) { return matrix_rows<Json>(A); }
 
 Json list(const Eigen::Ref<const Eigen::VectorXd>& v) {
   Json values = Json::array();

@@ -12,6 +12,7 @@
 #include "interfaces/cli/assemble.hpp"
 #include "interfaces/cli/commands.hpp"
 #include "interfaces/cli/output.hpp"
+#include "reduction/matrix_rows.hpp"
 
 namespace tenon::cli {
 namespace {
@@ -126,16 +127,6 @@ int run(const Options& options) {
 
 }  // namespace
 
-Json rows_of(const Eigen::MatrixXd& matrix) {
-  Json rows = Json::array();
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-    Json row = Json::array();
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j) row.push_back(matrix(i, j));
-    rows.push_back(std::move(row));
-  }
-  return rows;
-}
-
 Json channels(const std::vector<titop::Channel>& list) {
   Json names = Json::array();
   for (const titop::Channel& channel : list) names.push_back({{"name", channel.name}, {"unit", channel.unit}});
@@ -148,7 +139,7 @@ void write_system(const std::filesystem::path& path, Json object, const titop::S
   object["units"] = "SI";
   for (const auto& [name, matrix] :
        {std::pair("A", &ss.A), std::pair("B", &ss.B), std::pair("C", &ss.C), std::pair("D", &ss.D)})
-    object[name] = rows_of(*matrix);
+    object[name] = matrix_rows<Json>(*matrix);
   fem::AtomicFile file(path);
   file.stream() << object.dump() << '\n';
   file.commit();

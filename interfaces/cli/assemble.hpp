@@ -19,7 +19,6 @@ struct AssembleOptions {
 /// `tenon assemble --linearise`.
 int run_linearised(const AssembleOptions& options);
 
-Json rows_of(const Eigen::MatrixXd& matrix);
 Json channels(const std::vector<titop::Channel>& list);
 void print_channels(const char* title, const std::vector<titop::Channel>& list);
 

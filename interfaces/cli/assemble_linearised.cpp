@@ -5,6 +5,7 @@
 #include "assembly/build.hpp"
 #include "assembly/linearised.hpp"
 #include "interfaces/cli/assemble.hpp"
+#include "reduction/matrix_rows.hpp"
 
 namespace tenon::cli {
 namespace {
@@ -61,7 +62,7 @@ Json second_order(const assembly::LinearisedNetwork& l) {
   Json object{{"coordinates", l.coordinates}};
   for (const auto& [name, matrix] :
        {std::pair("M", &l.M), std::pair("C", &l.C), std::pair("K", &l.K), std::pair("B", &l.B), std::pair("J", &l.J)})
-    object[name] = rows_of(*matrix);
+    object[name] = matrix_rows<Json>(*matrix);
   return object;
 }
 
