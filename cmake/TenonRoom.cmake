@@ -8,7 +8,7 @@ function(tenon_room name)
   target_include_directories(tenon_${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/tenon>)
   target_compile_features(tenon_${name} PUBLIC cxx_std_20)
-  target_precompile_headers(tenon_${name} PRIVATE "${PROJECT_SOURCE_DIR}/fem/eigen_instances.hpp" <algorithm> <filesystem>
+  target_precompile_headers(tenon_${name} PRIVATE <fem/eigen_instances.hpp> <algorithm> <filesystem>
                             <functional> <map> <string> <vector> <fmt/format.h>)
   target_link_libraries(tenon_${name} PUBLIC ${ROOM_PUBLIC} PRIVATE ${ROOM_PRIVATE} $<BUILD_INTERFACE:tenon_options>)
   install(TARGETS tenon_${name} EXPORT tenon-targets)

@@ -24,27 +24,13 @@ inline Mat3 skew(const Vec3& a) {
 
 /// τ_CP = [1 skew(P − C); 0 1]: the twist at C of a rigid body from its twist at P; r = C − P [m]. TITOP paper, eq (1).
 /// Its transpose carries a wrench from C to P.
-inline Mat6 tau(const Vec3& r) {
-  Mat6 t = Mat6::Identity();
-  t.topRightCorner<3, 3>() = -skew(r);
-  return t;
-}
+Mat6 tau(const Vec3& r);
 
 /// P^a = blkdiag(R, R): a direction cosine matrix for twists and wrenches.
-inline Mat6 rotation6(const Mat3& R) {
-  Mat6 t = Mat6::Zero();
-  t.topLeftCorner<3, 3>() = R;
-  t.bottomRightCorner<3, 3>() = R;
-  return t;
-}
+Mat6 rotation6(const Mat3& R);
 
 /// Rigid mass matrix (6×6, linear first) about a reference point: mass m [kg], c = centre of mass − reference [m],
 /// J_c = inertia about the centre of mass [kg m²].
-inline Mat6 rigid_mass(double m, const Vec3& c, const Mat3& J_c) {
-  Mat6 D;
-  const Mat3 s = skew(c);
-  D << m * Mat3::Identity(), -m * s, m * s, J_c - m * s * s;
-  return D;
-}
+Mat6 rigid_mass(double m, const Vec3& c, const Mat3& J_c);
 
 }  // namespace tenon::fem

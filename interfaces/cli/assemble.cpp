@@ -154,7 +154,7 @@ void print_channels(const char* title, const std::vector<titop::Channel>& list) 
 
 void add_assemble(CLI::App& program, int& status) {
   const auto options = std::make_shared<AssembleOptions>();
-  CLI::App* command = program.add_subcommand("assemble", "the linear system of a scene: modes and state space");
+  CLI::App* command = add_command(program, "assemble", "the linear system of a scene: modes and state space");
   command->add_option("SCENE", options->scene, "a scene (.yaml, .json)")->required();
   command->add_option("-o,--output", options->output, "write A, B, C, D with named channels as JSON");
   CLI::Option* reactions = command

@@ -206,7 +206,7 @@ int run(const Options& options) {
 
 void add_beam(CLI::App& program, int& status) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = program.add_subcommand("beam", "analytic against finite-element beams");
+  CLI::App* command = add_command(program, "beam", "analytic against finite-element beams");
   command->add_option("--length", options->length, "of your beam [m]; without a beam: the tables of the TITOP paper")
       ->check(CLI::PositiveNumber);
   command->add_option("--section", options->section,

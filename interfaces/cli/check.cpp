@@ -207,7 +207,7 @@ int run(const Options& options) {
 
 void add_check(CLI::App& program, int& status) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = program.add_subcommand("check", "read and plan a scene: mass, rigid motions, grounding, ports");
+  CLI::App* command = add_command(program, "check", "read and plan a scene: mass, rigid motions, grounding, ports");
   command->add_option("SCENE", options->scene, "a scene (.yaml, .json)")->required();
   command->add_flag("--json", options->json, "one JSON object");
   command->footer("Example: tenon check scene.yaml");

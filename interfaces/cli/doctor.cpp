@@ -102,7 +102,7 @@ int run(bool json) {
 void add_doctor(CLI::App& program, int& status) {
   const auto options = std::make_shared<CostOptions>();
   const auto cost = std::make_shared<bool>(false);
-  CLI::App* command = program.add_subcommand("doctor", "versions, libraries, BLAS kernel, threads, licence effect");
+  CLI::App* command = add_command(program, "doctor", "versions, libraries, BLAS kernel, threads, licence effect");
   command->add_flag("--json", options->json, "one JSON object");
   CLI::Option* costs = command->add_flag(
       "--cost", *cost, "operations and seconds of forward dynamics, composite against articulated bodies");

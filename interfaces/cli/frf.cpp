@@ -209,7 +209,7 @@ int run(const Options& options) {
 
 void add_frf(CLI::App& program, int& status) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = program.add_subcommand("frf", "frequency response of a scene from an input to outputs");
+  CLI::App* command = add_command(program, "frf", "frequency response of a scene from an input to outputs");
   command->add_option("SCENE", options->scene, "a scene (.yaml, .json)")->required();
   command->add_option("--from", options->from, "an input of the scene")->required();
   command->add_option("--to", options->to, "outputs of the scene; a name without direction takes all of its own")

@@ -132,7 +132,7 @@ int run(const Options& options) {
 
 void add_info(CLI::App& program, int& status) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = program.add_subcommand("info", "what a mesh or deck holds, and what was read past");
+  CLI::App* command = add_command(program, "info", "what a mesh or deck holds, and what was read past");
   command->add_option("MESH", options->file, "a mesh (.msh) or Nastran deck (.bdf, .dat)")->required();
   command->add_flag("--json", options->json, "one JSON object");
   command->footer("Example: tenon info panel.msh");

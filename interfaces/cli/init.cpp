@@ -98,7 +98,7 @@ int run(const Options& options) {
 
 void add_init(CLI::App& program, int& status) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = program.add_subcommand("init", "write a commented scene for a mesh, to fill in");
+  CLI::App* command = add_command(program, "init", "write a commented scene for a mesh, to fill in");
   command->add_option("MESH", options->mesh, "a mesh (.msh)")->required();
   command->add_option("-o,--output", options->output, "a file in the mesh's folder; standard output when absent");
   command->footer("Example: tenon init panel.msh -o scene.yaml");

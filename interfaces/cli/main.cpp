@@ -29,6 +29,10 @@ bool unknown_command(const CLI::App& program, int argc, char** argv) {
 
 }  // namespace
 
+CLI::App* tenon::cli::add_command(CLI::App& program, const char* name, const char* description) {
+  return program.add_subcommand(name, description);
+}
+
 int main(int argc, char** argv) {
   CLI::App program{
       "From FE meshes to models that can be joined: reduced bodies, assembled systems, modes and responses.\n"

@@ -103,7 +103,7 @@ int modes_of_model(const ModesCommand& options, fem::Model model, const fem::Mes
 
 void add_modes(CLI::App& program, int& status) {
   const auto options = std::make_shared<ModesCommand>();
-  CLI::App* command = program.add_subcommand("modes", "natural frequencies of a scene or of a Nastran deck");
+  CLI::App* command = add_command(program, "modes", "natural frequencies of a scene or of a Nastran deck");
   command->add_option("INPUT", options->file, "a scene (.yaml, .json) or deck (.bdf, .dat)")->required();
   command->add_option("--count", options->count, "how many modes, rigid ones included")->check(CLI::Range(1, 100000));
   command->add_option("--band", options->band_hz, "instead of --count: all modes between F0 and F1 [Hz]")->expected(2);

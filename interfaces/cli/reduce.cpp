@@ -127,7 +127,7 @@ int run(const Options& options) {
 void add_reduce(CLI::App& program, int& status) {
   const auto options = std::make_shared<Options>();
   CLI::App* command =
-      program.add_subcommand("reduce", "one body of a scene to modes, with certificate and effective mass");
+      add_command(program, "reduce", "one body of a scene to modes, with certificate and effective mass");
   command->add_option("SCENE", options->scene, "a scene (.yaml, .json)")->required();
   command->add_option("--body", options->body, "which body")->required();
   command->add_option("-o,--output", options->output, "write the reduced body, *.body.json");

@@ -343,7 +343,7 @@ const CLI::Validator positive(
 
 void add_simulate(CLI::App& program, int& status) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = program.add_subcommand("simulate", "large motion of a scene over time");
+  CLI::App* command = add_command(program, "simulate", "large motion of a scene over time");
   command->add_option("SCENE", options->scene, "a scene (.yaml, .json), perhaps with `simulation:`")->required();
   command->add_option("--time", options->time, "until when [s]")->check(positive);
   command->add_option("--step", options->step, "of methods with fixed steps; the first one of others [s]")

@@ -201,7 +201,7 @@ int run(Options options) {
 
 void add_sweep(CLI::App& program, int& status) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = program.add_subcommand("sweep", "modes of a scene against the angle of a joint");
+  CLI::App* command = add_command(program, "sweep", "modes of a scene against the angle of a joint");
   command->add_option("SCENE", options->scene, "a scene (.yaml, .json)")->required();
   command->add_option("--joint", options->joint, "a revolute joint of the scene")->required();
   command->add_option("--from", options->from, "first angle [deg]; 0 when absent");
