@@ -3,7 +3,7 @@
 namespace tenon::assembly::testing {
 
 ReducedBody RandomMultibody::lumped(const std::string& name) {
-  const int modes = random.integer(0, 6), nodes = random.integer(4, 6);
+  const int modes = random.integer(0, 12), nodes = modes / 3 + random.integer(3, 5);  // 3 nodes > modes + 6
   tests::LumpedBody lumped =
       tests::random_lumped(static_cast<unsigned>(random.integer(1, 1 << 20)), nodes, modes, false, random.chance(0.5));
   lumped.body.name = name;
@@ -21,7 +21,7 @@ Multibody RandomMultibody::system(int most, Deformation deformation, bool lumped
   for (int k = 0; k < count; ++k) {
     HingedBody b;
     const std::string name = "body" + std::to_string(k);
-    const ReducedBody body = lumped_nodes ? lumped(name) : random.body(name, random.chance(0.4));
+    const ReducedBody body = lumped_nodes ? lumped(name) : random.body(name, random.chance(0.4), 12);
     const auto ports = static_cast<int>(body.ports.size());
     b.name = body.name;
     b.body = std::make_shared<const ReducedBody>(body);

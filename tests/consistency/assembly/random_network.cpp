@@ -31,9 +31,9 @@ Mat3 RandomNetwork::inertia(double size) {
   return J;
 }
 
-ReducedBody RandomNetwork::body(const std::string& name, bool free_free) {
+ReducedBody RandomNetwork::body(const std::string& name, bool free_free, int most_modes) {
   ReducedBody b;
-  const int n = chance(0.2) ? 0 : integer(1, 10), ports = integer(2, 4);
+  const int n = chance(0.2) ? 0 : integer(1, most_modes), ports = integer(2, 4);
   const double mass = log_uniform(0.5, 50.0);
   const Vec3 centre = vector(1.0);
   const Mat3 J = inertia(0.2 * mass);

@@ -27,7 +27,7 @@ class RandomNetwork {
   Mat3 inertia(double size);
 
   /// D a true rigid mass, L with LᵀL ≤ 0.8 D, Phi of size 1/√m, ω over two decades.
-  ReducedBody body(const std::string& name, bool free_free = false);
+  ReducedBody body(const std::string& name, bool free_free = false, int most_modes = 10);
 
   PortRef port(const Network& network, int body);
 
