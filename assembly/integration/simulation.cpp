@@ -124,7 +124,10 @@ Loads make_loads(const Network& network, const Simulation& simulation, const Sce
 
 Plan plan_motion(const Scene& scene, const SceneSimulation& section) {
   Plan plan = assembly::plan(scene);
-  for (BodyPlan& body : plan.bodies) body.options.nonlinear = section.of(body.body) == Flexibility::full;
+  for (BodyPlan& body : plan.bodies) {
+    const Flexibility level = section.of(body.body);
+    body.options.nonlinear = level == Flexibility::full || level == Flexibility::automatic;
+  }
   return plan;
 }
 

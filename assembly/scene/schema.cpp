@@ -175,7 +175,7 @@ const Key one_initial{"initial motion", map, "", false, &initial};
 const Schema forces{"forces", {}, &one_force};
 const Schema initials{"initial motions", {}, &one_initial};
 
-const Key one_level{"level", scalar, "full, dropped or rigid"};
+const Key one_level{"level", scalar, "full, dropped, rigid or auto"};
 const Schema levels{"deformation", {}, &one_level};
 
 const Schema simulation{
@@ -187,7 +187,7 @@ const Schema simulation{
      {"sample", scalar, "time between samples"},
      {"gravity", list, "acceleration of gravity, world axes"},
      {"deformation", scalar | map,
-      "full (default): moves ports and shifts mass; dropped: neither; rigid: none; or body -> one of these", false,
+      "full (default): moves ports and shifts mass; dropped; rigid; auto: what is enough; or body -> one", false,
       &levels},
      {"initial", map, "joint or floating body -> where and how fast it starts", false, &initials},
      {"forces", map, "input -> a value, or a force over time", false, &forces}}};

@@ -95,7 +95,7 @@ InitialMotion read_initial(const Member& entry, const Scene& scene) {
 /// One word for all bodies, or body -> word.
 std::map<std::string, Flexibility> read_deformation(const Value& value, const Scene& scene) {
   const auto word = [](const Value& said) {
-    return static_cast<Flexibility>(choice(said, {"full", "dropped", "rigid"}));
+    return static_cast<Flexibility>(choice(said, {"full", "dropped", "rigid", "auto"}));
   };
   std::map<std::string, Flexibility> of;
   std::vector<std::string> names;

@@ -33,8 +33,9 @@ struct SignalOn {
   Signal signal;
 };
 
-/// What a body's modes do in motion: everything; bend it without moving its ports or shifting its mass; nothing.
-enum class Flexibility { full, dropped, rigid };
+/// What a body's modes do in motion: everything; bend it without moving its ports or shifting its mass; nothing; what
+/// plan_deformation() finds to be enough (everything, where it is not asked).
+enum class Flexibility { full, dropped, rigid, automatic };
 
 struct SceneSimulation {
   std::optional<double> time, step, tolerance, sample;  ///< [s], relative

@@ -8,6 +8,7 @@
 #include "assembly/build.hpp"
 #include "assembly/integration/checkpoint.hpp"
 #include "assembly/integration/deflection.hpp"
+#include "assembly/integration/deformation_plan.hpp"
 #include "assembly/integration/simulation.hpp"
 #include "assembly/recursion/stiffening.hpp"
 #include "fem/error.hpp"
@@ -27,6 +28,11 @@ struct Options {
   bool json = false;
 };
 
+const char* word(assembly::Flexibility level) {
+  constexpr const char* words[] = {"full", "dropped", "rigid", "auto"};
+  return words[static_cast<int>(level)];
+}
+
 /// A body with modes, and how far they moved a port.
 struct Deforming {
   std::size_t index;
@@ -44,6 +50,7 @@ struct Result {
   assembly::Integration integration;
   assembly::IntegrationState state;
   std::vector<Deforming> bodies;
+  std::vector<assembly::DeformationPlan> plan;
   double moved = 0.0, wall = 0.0;
   std::vector<std::string> notes;
 };
@@ -134,12 +141,16 @@ void note_spin(const assembly::Multibody& system, const assembly::SpinRatio& spi
 
 Result compute(const Options& options) {
   const assembly::Scene scene = assembly::read_moving_scene(options.scene);
-  const assembly::SceneSimulation section = assembly::read_simulation(scene);
+  assembly::SceneSimulation section = assembly::read_simulation(scene);
   Result result;
   result.run = run_options(options, section);
   ProgressBar bar;
   const auto progress = bar.callback();
   const assembly::Network network = assembly::build_network(scene, assembly::plan_motion(scene, section), progress);
+  const double band = scene.requirement.band ? (*scene.requirement.band)[1] : 0.0;
+  result.plan =
+      assembly::plan_deformation(network, section, result.run.until, scene.requirement.tolerance, band, progress);
+  section = assembly::with_levels(std::move(section), result.plan);
   const assembly::Simulation simulation = assembly::make_simulation(network, section);
   const assembly::Multibody& system = simulation.bodies.system;
   if (options.method.empty() && section.method.empty() && result.run.method == assembly::Method::bdf &&
@@ -264,6 +275,7 @@ Json to_json(const Result& result, const std::vector<std::filesystem::path>& fil
               {"worst_closure_gap_m", i.worst_gap},
               {"wall_s", result.wall},
               {"channels", Json::array()},
+              {"plan", Json::array()},
               {"deformation", Json::array()},
               {"notes", result.notes},
               {"files", Json::array()}};
@@ -277,6 +289,12 @@ Json to_json(const Result& result, const std::vector<std::filesystem::path>& fil
                                   {"least", *std::min_element(c.begin(), c.end())},
                                   {"most", *std::max_element(c.begin(), c.end())}});
   }
+  for (const assembly::DeformationPlan& body : result.plan)
+    object["plan"].push_back({{"body", body.body},
+                              {"taken", word(body.level)},
+                              {"deflection_of_size", body.deflection},
+                              {"stiffness_change", body.softening},
+                              {"why", body.why}});
   for (const Deforming& body : result.bodies)
     object["deformation"].push_back({{"body", body.name},
                                      {"taken", body.full ? "full" : "dropped"},
@@ -286,6 +304,8 @@ Json to_json(const Result& result, const std::vector<std::filesystem::path>& fil
 }
 
 void print_deformation(const Result& result) {
+  for (const assembly::DeformationPlan& body : result.plan)
+    print(wrapped(fmt::format("Body '{}' is taken as {}: {}.", body.body, word(body.level), body.why), 0));
   if (result.bodies.empty()) return;
   Table table({"<body", "<deformation", "largest deflection / size"});
   for (const Deforming& body : result.bodies)

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 #include "tests/unit/interfaces/blade_scene.hpp"
 #include "tests/unit/interfaces/program.hpp"
@@ -84,6 +85,38 @@ TEST_F(FiniteMotion, AssembleLinearisesAboutASpin) {
     EXPECT_EQ(free, 1u);  // the flywheel's turn
     EXPECT_NEAR(omega[free] / std::sqrt(flap * flap - lambda * lambda), 1.0, 1e-4) << lambda;
     EXPECT_NEAR(omega[free + 1] / flap, 1.0, 1e-4) << lambda;
+  }
+}
+
+// A flywheel turned by the torque T loads the blade with w = ρA (T/1e10) x, so that its tip turns by ρA L⁴
+// (T/1e10)/8EI, more than it moves over L; twice that when the torque steps. First frequency: 3.516 √(EI/ρAL⁴) = 3.80
+// rad/s.
+TEST_F(FiniteMotion, ThePlanTakesWhatTheMotionRequires) {
+  const auto run = [&](double torque, const std::string& level, const std::string& band) {
+    const std::string rest = fmt::format(
+        "inputs: {{drive: {{at: axle}}}}\noutputs: {{tip: {{at: blade.C, displacement: y}}}}\n"
+        "requires: {{tolerance: 1e-3{}}}\n"
+        "simulation: {{time: 2, tolerance: 1e-8, deformation: {}, forces: {{drive: {}}}}}\n",
+        band, level, torque);
+    folder_.write("plan.yaml", tenon::blade_scene(rest));
+    return object("simulate plan.yaml");
+  };
+  for (const auto& [torque, band, level] : {std::tuple(4e9, "", "full"),
+                                            {4e6, "", "dropped"},
+                                            {4e3, "", "dropped"},
+                                            {4e3, ", band: [0, 0.1 Hz]", "dropped"},
+                                            {4e3, ", band: [0, 0.01 Hz]", "rigid"}}) {
+    SCOPED_TRACE(fmt::format("{} N m{}", torque, band));
+    const json planned = run(torque, "auto", band), full = run(torque, "full", band);
+    ASSERT_EQ(planned["plan"].size(), 1u);
+    EXPECT_EQ(full["plan"].size(), 0u);
+    EXPECT_EQ(planned["plan"][0]["body"], "blade");
+    EXPECT_EQ(planned["plan"][0]["taken"], level);
+    const double foreseen = planned["plan"][0]["deflection_of_size"], turn = 1.2e4 * torque / 1e10 / (8.0 * 1.4e4);
+    EXPECT_NEAR(foreseen / (2.0 * turn), 1.0, 1e-5);  // static shapes are kept; beside the flywheel it weighs 4e-8
+    EXPECT_LE(full["deformation"][0]["largest_deflection_of_size"].get<double>(), 1.05 * foreseen);  // second mode
+    const auto tip = [](const json& of) { return of["channels"][0]["last"].get<double>(); };
+    EXPECT_NEAR(tip(planned), tip(full), level == std::string("full") ? 1e-12 : 1e-3 * 10.0);  // tolerance times L
   }
 }
 
