@@ -174,7 +174,8 @@ fem::Model elements_of(const Mesh& mesh, const SceneBody& body, const FeSource& 
   model.source = mesh.source;
   model.node_ids = mesh.point_ids;
   model.losses = mesh.losses;
-  for (const Vec3& point : mesh.points) model.nodes.push_back(fe.units.length * point);
+  const Factor length = fe.units.to_si(dimension::length);
+  for (const Vec3& point : mesh.points) model.nodes.push_back(length * point);
 
   std::vector<int> shape;  // of each section: index among the model's beam or shell sections
   for (const SceneSection& section : fe.sections) {

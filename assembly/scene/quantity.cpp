@@ -61,7 +61,7 @@ int count(const Value& value, int least) {
 }
 
 double quantity(const Value& value, const Dimension& dimension, const Units& units) {
-  return number(value) * units.to_si(dimension);
+  return units.to_si(dimension) * number(value);
 }
 
 double positive(const Value& value, const Dimension& dimension, const Units& units, bool zero_too) {

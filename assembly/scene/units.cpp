@@ -5,49 +5,59 @@
 namespace tenon::assembly {
 namespace {
 
+template <class Quantity>
+void take(Quantity& x, const Factor& to_si) {
+  x = to_si * x;
+}
+
 /// Takes the numbers of an element to SI, factor by factor.
 struct Convert {
   const Units& units;
 
   void operator()(fem::Beam& beam) const {
-    for (fem::Vec3& offset : beam.offsets) offset *= units.length;
+    for (fem::Vec3& offset : beam.offsets) take(offset, units.to_si(dimension::length));
   }
   void operator()(fem::Quad4&) const {}
   void operator()(fem::Tria3&) const {}
   void operator()(fem::PointMass& point) const {
-    point.mass *= units.mass;
-    point.inertia *= units.to_si(dimension::inertia);
-    point.offset *= units.length;
+    take(point.mass, units.to_si(dimension::mass));
+    take(point.inertia, units.to_si(dimension::inertia));
+    take(point.offset, units.to_si(dimension::length));
   }
   /// Force or torque over displacement or rotation: each rotation brings one length.
   void operator()(fem::Spring& spring) const {
     const int rotations = (spring.dof_a > 2 ? 1 : 0) + ((spring.node_b < 0 ? spring.dof_a : spring.dof_b) > 2 ? 1 : 0);
-    spring.k *= units.to_si({rotations, 1, -2});
+    take(spring.k, units.to_si({rotations, 1, -2}));
   }
 };
 
 }  // namespace
 
-double Units::to_si(const Dimension& d) const {
-  return std::pow(length, d.length) * std::pow(mass, d.mass) * std::pow(time, d.time);
+Factor Units::to_si(const Dimension& d) const {
+  const double factor = std::pow(length, d.length) * std::pow(mass, d.mass) * std::pow(time, d.time);
+  constexpr double round_off = 1e-14;  // of powers and products
+  const auto whole = [](double x) { return std::abs(x - std::round(x)) < round_off * x; };
+  if (factor < 1.0 && whole(1.0 / factor)) return {1.0, std::round(1.0 / factor)};
+  return {whole(factor) ? std::round(factor) : factor, 1.0};
 }
 
 fem::Model to_si(fem::Model model, const Units& units) {
-  for (fem::Vec3& node : model.nodes) node *= units.length;
+  const Factor length = units.to_si(dimension::length), pressure = units.to_si(dimension::pressure);
+  for (fem::Vec3& node : model.nodes) take(node, length);
   for (fem::Material& material : model.materials) {
-    material.E *= units.to_si(dimension::pressure);
-    material.G *= units.to_si(dimension::pressure);
-    material.rho *= units.to_si(dimension::density);
+    take(material.E, pressure);
+    take(material.G, pressure);
+    take(material.rho, units.to_si(dimension::density));
   }
   for (fem::BeamSection& section : model.beam_sections) {
-    section.A *= units.to_si(dimension::area);
+    take(section.A, units.to_si(dimension::area));
     for (double* moment : {&section.Iy, &section.Iz, &section.Iyz, &section.J})
-      *moment *= units.to_si(dimension::second_moment);
-    section.nsm *= units.to_si(dimension::mass_per_length);
+      take(*moment, units.to_si(dimension::second_moment));
+    take(section.nsm, units.to_si(dimension::mass_per_length));
   }
   for (fem::ShellSection& section : model.shell_sections) {
-    section.thickness *= units.length;
-    section.nsm *= units.to_si(dimension::mass_per_area);
+    take(section.thickness, length);
+    take(section.nsm, units.to_si(dimension::mass_per_area));
   }
   for (fem::Element& element : model.elements) std::visit(Convert{units}, element);
   // Σ c u = 0 holds in SI with translations' coefficients divided by the unit of length.

@@ -17,6 +17,15 @@ inline constexpr Dimension none{}, length{1, 0, 0}, area{2, 0, 0}, second_moment
     acceleration{1, 0, -2}, torque{2, 1, -2}, rotary_damping{2, 1, -1}, time{0, 0, 1};
 }
 
+/// Takes numbers to SI, rounding once. What is a whole number of units to the SI unit divides by it: 1e-3 is no number
+/// of the machine, 1000 is, so that 2 in mm is what 0.002 in m is read as.
+struct Factor {
+  double times = 1.0, over = 1.0;  ///< one of them 1
+  double operator*(double x) const { return x * times / over; }
+  fem::Vec3 operator*(const fem::Vec3& x) const { return x * times / over; }
+  fem::Mat3 operator*(const fem::Mat3& x) const { return x * times / over; }
+};
+
 /// A consistent system of units: how much of the SI unit one of its units is.
 struct Units {
   double length = 1.0;  ///< [m]
@@ -24,8 +33,8 @@ struct Units {
   double time = 1.0;    ///< [s]
   std::string name = "SI";
 
-  /// Factor that takes a quantity of these units to SI.
-  double to_si(const Dimension& dimension) const;
+  /// What takes a quantity of these units to SI.
+  Factor to_si(const Dimension& dimension) const;
 };
 
 /// The model in SI, given that every number of it stands in `units` (decks of Nastran and the like).
