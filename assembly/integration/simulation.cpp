@@ -98,7 +98,7 @@ Loads make_loads(const Network& network, const Simulation& simulation, const Sce
       const int body = simulation.bodies.hinge[at(*input->joint)];
       if (body < 0)
         throw InputError(force.place, fmt::format("input '{}' drives a joint that closes a loop", force.input),
-                         "Drive another joint of the loop, or list it after the others");
+                         "Every joint of that loop is driven: leave one of them without a drive");
       drive.speed = system.v_offset[at(body)] + system.bodies[at(body)].modes();
     } else {
       drive.port = in_system(simulation, *input->at);

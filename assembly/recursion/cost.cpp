@@ -76,10 +76,7 @@ MeasuredCost measure_cost(const Multibody& system) {
     return least;
   };
   MeasuredCost cost;
-  cost.articulated = best([&] {
-    articulate(system, sweeps);
-    forward_dynamics(system, sweeps, T, v_dot);
-  });
+  cost.articulated = best([&] { articulated_forward_dynamics(system, sweeps, T, v_dot); });
   cost.composite = best([&] { composite_forward_dynamics(system, sweeps, T, mass, v_dot); });
   return cost;
 }

@@ -7,6 +7,7 @@
 namespace tenon::cli {
 
 struct CostOptions {
+  std::filesystem::path scene;  ///< measured itself, in place of chains
   std::vector<int> bodies{10};  ///< of the chains
   std::filesystem::path svg;    ///< a picture of the ratios (Figure 2 of the paper); none when empty
   bool json = false;

@@ -111,6 +111,7 @@ void add_doctor(CLI::App& program, int& status) {
       ->needs(costs)
       ->capture_default_str();
   command->add_option("--svg", options->svg, "write the ratios of --cost as a picture")->needs(costs);
+  command->add_option("scene", options->scene, "measure its system with --cost, in place of chains")->needs(costs);
   command->footer("Example: tenon doctor --cost --bodies 2 10 100 --svg cost.svg");
   command->callback([=, &status] { status = *cost ? run_cost(*options) : run(options->json); });
 }

@@ -260,6 +260,14 @@ TEST_F(Cli, DoctorCountsAndMeasuresForwardDynamics) {
   EXPECT_NEAR(chain["counted_ratio"].get<double>(), 1.07, 5e-3);  // 19,579 / 18,280 by the polynomials of section 8
   EXPECT_GT(chain["articulated_s"].get<double>(), 0.0);
   EXPECT_THAT(text(folder_.path() / "cost.svg"), HasSubstr("2 bodies, measured"));
+  // four bars, one of them the frame, and two lumped masses; 5 modes in the plane for each beam
+  const json scene = object("doctor --cost " + (fs::path(TENON_SOURCE_DIR) / "data/fourbar/scene.yaml").string());
+  EXPECT_EQ(scene["bodies"], 6);
+  EXPECT_EQ(scene["modes"], 15);
+  EXPECT_EQ(scene["closures"], 1);
+  EXPECT_GT(scene["composite_s"].get<double>(), 0.0);
+  EXPECT_GT(scene["articulated_s"].get<double>(), 0.0);
+  EXPECT_EQ(scene["cheaper"] == "articulated", scene["articulated_s"] <= scene["composite_s"]);
 }
 
 TEST_F(Cli, HelpEndsWithStatusZeroAndAnExample) {
