@@ -2,13 +2,38 @@
 
 #include <Eigen/Dense>
 
-namespace tenon::gemm {
+/// Short names for what Eigen's products are made of.
+namespace tenon::fem::gemm {
 
+using Index = Eigen::Index;
+constexpr int columns = Eigen::ColMajor, rows = Eigen::RowMajor;
+template <int Order>
+using From = Eigen::internal::const_blas_data_mapper<double, Index, Order>;
+using Into = Eigen::internal::blas_data_mapper<double, Index, columns>;
 using Traits = Eigen::internal::gebp_traits<double, double>;
 using Packet = Traits::LhsPacket4Packing;
 constexpr int mr = Traits::mr, nr = Traits::nr, progress = Traits::LhsProgress;
 
-}  // namespace tenon::gemm
+}  // namespace tenon::fem::gemm
+
+// A factor of a product copied into the order of the inner loop, products, and triangular solves: by storage order.
+#define TENON_EIGEN_PACKS(DECLARE, ORDER)                                                                              \
+  DECLARE struct Eigen::internal::gemm_pack_lhs<                                                                       \
+      double, tenon::fem::gemm::Index, tenon::fem::gemm::From<tenon::fem::gemm::ORDER>, tenon::fem::gemm::mr,          \
+      tenon::fem::gemm::progress, tenon::fem::gemm::Packet, tenon::fem::gemm::ORDER>;                                  \
+  DECLARE struct Eigen::internal::gemm_pack_rhs<double, tenon::fem::gemm::Index,                                       \
+                                                tenon::fem::gemm::From<tenon::fem::gemm::ORDER>, tenon::fem::gemm::nr, \
+                                                tenon::fem::gemm::ORDER>;
+#define TENON_EIGEN_PRODUCTS(DECLARE, LEFT, RIGHT)                                                                    \
+  DECLARE struct Eigen::internal::general_matrix_vector_product<                                                      \
+      tenon::fem::gemm::Index, double, tenon::fem::gemm::From<tenon::fem::gemm::LEFT>, tenon::fem::gemm::LEFT, false, \
+      double, tenon::fem::gemm::From<tenon::fem::gemm::RIGHT>, false, Eigen::Specialized>;                            \
+  DECLARE struct Eigen::internal::general_matrix_matrix_product<tenon::fem::gemm::Index, double,                      \
+                                                                tenon::fem::gemm::LEFT, false, double,                \
+                                                                tenon::fem::gemm::RIGHT, false, Eigen::ColMajor, 1>;
+#define TENON_EIGEN_SOLVE(DECLARE, TRIANGLE, ORDER)                                                                    \
+  DECLARE struct Eigen::internal::triangular_solve_matrix<double, tenon::fem::gemm::Index, Eigen::OnTheLeft, TRIANGLE, \
+                                                          false, tenon::fem::gemm::ORDER, Eigen::ColMajor, 1>;
 
 /// What Eigen makes of dense double matrices, compiled once (in eigen_instances.cpp) for every room and test: its
 /// decompositions, Householder reflections applied in blocks, the inner loops of products and triangular solves. Part
@@ -31,49 +56,22 @@ constexpr int mr = Traits::mr, nr = Traits::nr, progress = Traits::LhsProgress;
   DECLARE class Eigen::Tridiagonalization<Eigen::MatrixXd>;                                                            \
   DECLARE class Eigen::RealSchur<Eigen::MatrixXd>;                                                                     \
   DECLARE class Eigen::RealQZ<Eigen::MatrixXd>;                                                                        \
-  DECLARE struct Eigen::internal::gemm_pack_lhs<                                                                       \
-      double, Eigen::Index, Eigen::internal::const_blas_data_mapper<double, Eigen::Index, Eigen::ColMajor>,            \
-      tenon::gemm::mr, tenon::gemm::progress, tenon::gemm::Packet, Eigen::ColMajor>;                                   \
-  DECLARE struct Eigen::internal::gemm_pack_rhs<                                                                       \
-      double, Eigen::Index, Eigen::internal::const_blas_data_mapper<double, Eigen::Index, Eigen::ColMajor>,            \
-      tenon::gemm::nr, Eigen::ColMajor>;                                                                               \
-  DECLARE struct Eigen::internal::gemm_pack_lhs<                                                                       \
-      double, Eigen::Index, Eigen::internal::const_blas_data_mapper<double, Eigen::Index, Eigen::RowMajor>,            \
-      tenon::gemm::mr, tenon::gemm::progress, tenon::gemm::Packet, Eigen::RowMajor>;                                   \
-  DECLARE struct Eigen::internal::gemm_pack_rhs<                                                                       \
-      double, Eigen::Index, Eigen::internal::const_blas_data_mapper<double, Eigen::Index, Eigen::RowMajor>,            \
-      tenon::gemm::nr, Eigen::RowMajor>;                                                                               \
-  DECLARE struct Eigen::internal::gebp_kernel<                                                                         \
-      double, double, Eigen::Index, Eigen::internal::blas_data_mapper<double, Eigen::Index, Eigen::ColMajor>,          \
-      tenon::gemm::mr, tenon::gemm::nr, false, false>;                                                                 \
-  DECLARE struct Eigen::internal::general_matrix_vector_product<                                                       \
-      Eigen::Index, double, Eigen::internal::const_blas_data_mapper<double, Eigen::Index, Eigen::ColMajor>,            \
-      Eigen::ColMajor, false, double, Eigen::internal::const_blas_data_mapper<double, Eigen::Index, Eigen::RowMajor>,  \
-      false, Eigen::Specialized>;                                                                                      \
-  DECLARE struct Eigen::internal::general_matrix_vector_product<                                                       \
-      Eigen::Index, double, Eigen::internal::const_blas_data_mapper<double, Eigen::Index, Eigen::ColMajor>,            \
-      Eigen::ColMajor, false, double, Eigen::internal::const_blas_data_mapper<double, Eigen::Index, Eigen::ColMajor>,  \
-      false, Eigen::Specialized>;                                                                                      \
-  DECLARE struct Eigen::internal::general_matrix_vector_product<                                                       \
-      Eigen::Index, double, Eigen::internal::const_blas_data_mapper<double, Eigen::Index, Eigen::RowMajor>,            \
-      Eigen::RowMajor, false, double, Eigen::internal::const_blas_data_mapper<double, Eigen::Index, Eigen::ColMajor>,  \
-      false, Eigen::Specialized>;                                                                                      \
-  DECLARE struct Eigen::internal::general_matrix_vector_product<                                                       \
-      Eigen::Index, double, Eigen::internal::const_blas_data_mapper<double, Eigen::Index, Eigen::RowMajor>,            \
-      Eigen::RowMajor, false, double, Eigen::internal::const_blas_data_mapper<double, Eigen::Index, Eigen::RowMajor>,  \
-      false, Eigen::Specialized>;                                                                                      \
-  DECLARE struct Eigen::internal::triangular_solve_matrix<double, Eigen::Index, Eigen::OnTheLeft, Eigen::Lower, false, \
-                                                          Eigen::ColMajor, Eigen::ColMajor, 1>;                        \
-  DECLARE struct Eigen::internal::triangular_solve_matrix<double, Eigen::Index, Eigen::OnTheLeft, Eigen::Lower, false, \
-                                                          Eigen::RowMajor, Eigen::ColMajor, 1>;                        \
-  DECLARE struct Eigen::internal::triangular_solve_matrix<double, Eigen::Index, Eigen::OnTheLeft, Eigen::Upper, false, \
-                                                          Eigen::ColMajor, Eigen::ColMajor, 1>;                        \
-  DECLARE struct Eigen::internal::triangular_solve_matrix<double, Eigen::Index, Eigen::OnTheLeft, Eigen::Upper, false, \
-                                                          Eigen::RowMajor, Eigen::ColMajor, 1>;                        \
-  DECLARE struct Eigen::internal::triangular_solve_matrix<double, Eigen::Index, Eigen::OnTheLeft, Eigen::UnitLower,    \
-                                                          false, Eigen::ColMajor, Eigen::ColMajor, 1>;                 \
-  DECLARE struct Eigen::internal::triangular_solve_matrix<double, Eigen::Index, Eigen::OnTheLeft, Eigen::UnitLower,    \
-                                                          false, Eigen::RowMajor, Eigen::ColMajor, 1>;                 \
+  TENON_EIGEN_PACKS(DECLARE, columns)                                                                                  \
+  TENON_EIGEN_PACKS(DECLARE, rows)                                                                                     \
+  DECLARE struct Eigen::internal::gebp_kernel<double, double, tenon::fem::gemm::Index, tenon::fem::gemm::Into,         \
+                                              tenon::fem::gemm::mr, tenon::fem::gemm::nr, false, false>;               \
+  TENON_EIGEN_PRODUCTS(DECLARE, columns, columns)                                                                      \
+  TENON_EIGEN_PRODUCTS(DECLARE, columns, rows)                                                                         \
+  TENON_EIGEN_PRODUCTS(DECLARE, rows, columns)                                                                         \
+  TENON_EIGEN_PRODUCTS(DECLARE, rows, rows)                                                                            \
+  TENON_EIGEN_SOLVE(DECLARE, Eigen::Lower, columns)                                                                    \
+  TENON_EIGEN_SOLVE(DECLARE, Eigen::Lower, rows)                                                                       \
+  TENON_EIGEN_SOLVE(DECLARE, Eigen::Upper, columns)                                                                    \
+  TENON_EIGEN_SOLVE(DECLARE, Eigen::Upper, rows)                                                                       \
+  TENON_EIGEN_SOLVE(DECLARE, Eigen::UnitLower, columns)                                                                \
+  TENON_EIGEN_SOLVE(DECLARE, Eigen::UnitLower, rows)                                                                   \
+  DECLARE void Eigen::internal::evaluateProductBlockingSizesHeuristic<double, double, 1, Eigen::Index>(                \
+      Eigen::Index&, Eigen::Index&, Eigen::Index&, Eigen::Index);                                                      \
   DECLARE Eigen::EigenSolver<Eigen::MatrixXd>& Eigen::EigenSolver<Eigen::MatrixXd>::compute(                           \
       const Eigen::EigenBase<Eigen::MatrixXd>&, bool);                                                                 \
   DECLARE Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>& Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>::compute(     \
