@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <utility>
 
-namespace tenon {
+namespace tenon::reduction {
 
 /// The rows of A as an array of arrays: how every file of this project writes a matrix. Json is a type of
 /// nlohmann::basic_json, which this header leaves to its callers.
@@ -18,4 +18,4 @@ Json matrix_rows(const Eigen::Ref<const Eigen::MatrixXd>& A) {
   return rows;
 }
 
-}  // namespace tenon
+}  // namespace tenon::reduction

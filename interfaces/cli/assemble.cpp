@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <memory>
 #include <numbers>
 #include <optional>
 
@@ -17,10 +16,8 @@
 namespace tenon::cli {
 namespace {
 
-using Options = AssembleOptions;
-
 /// At the frequency asked for; nothing when none was.
-std::optional<assembly::Reactions> reactions_of(const Options& options, const assembly::Network& network,
+std::optional<assembly::Reactions> reactions_of(const AssembleOptions& options, const assembly::Network& network,
                                                 const assembly::SecondOrderSystem& system) {
   if (!options.reactions_hz) return std::nullopt;
   if (network.inputs.empty())
@@ -73,8 +70,8 @@ void print_people(const assembly::Reactions& r, double frequency_hz, const std::
   if (shown < inputs.size()) print(wrapped(fmt::format("{} more inputs: --json", inputs.size() - shown)));
 }
 
-Json summary(const Options& options, const assembly::SecondOrderSystem& system, const assembly::SystemModes& modes,
-             const titop::StateSpace& ss) {
+Json summary(const AssembleOptions& options, const assembly::SecondOrderSystem& system,
+             const assembly::SystemModes& modes, const titop::StateSpace& ss) {
   Json object{{"source", options.scene.string()}, {"states", ss.order()},
               {"coordinates", system.M.rows()},   {"constraint_rows", system.G.rows()},
               {"constraint_rank", system.rank},   {"redundant_rows", system.redundant},
@@ -88,8 +85,8 @@ Json summary(const Options& options, const assembly::SecondOrderSystem& system, 
   return object;
 }
 
-void print_people(const Options& options, const assembly::SecondOrderSystem& system, const assembly::SystemModes& modes,
-                  const titop::StateSpace& ss) {
+void print_people(const AssembleOptions& options, const assembly::SecondOrderSystem& system,
+                  const assembly::SystemModes& modes, const titop::StateSpace& ss) {
   print(fmt::format("{}: {} coordinates, {} states, {} rigid modes", options.scene.string(), system.M.rows(),
                     ss.order(), modes.rigid));
   print(fmt::format("  joint and ground rows: {}, of rank {}{}", system.G.rows(), system.rank,
@@ -101,7 +98,10 @@ void print_people(const Options& options, const assembly::SecondOrderSystem& sys
   print_channels("output", ss.outputs);
 }
 
-int run(const Options& options) {
+}  // namespace
+
+int run(const AssembleOptions& options) {
+  if (options.linearise) return run_linearised(options);
   const assembly::Scene scene = assembly::read_scene(options.scene);
   assembly::Network network;
   {
@@ -125,8 +125,6 @@ int run(const Options& options) {
   return done;
 }
 
-}  // namespace
-
 Json channels(const std::vector<titop::Channel>& list) {
   Json names = Json::array();
   for (const titop::Channel& channel : list) names.push_back({{"name", channel.name}, {"unit", channel.unit}});
@@ -139,7 +137,7 @@ void write_system(const std::filesystem::path& path, Json object, const titop::S
   object["units"] = "SI";
   for (const auto& [name, matrix] :
        {std::pair("A", &ss.A), std::pair("B", &ss.B), std::pair("C", &ss.C), std::pair("D", &ss.D)})
-    object[name] = matrix_rows<Json>(*matrix);
+    object[name] = reduction::matrix_rows<Json>(*matrix);
   fem::AtomicFile file(path);
   file.stream() << object.dump() << '\n';
   file.commit();
@@ -150,24 +148,6 @@ void print_channels(const char* title, const std::vector<titop::Channel>& list) 
   for (const titop::Channel& channel : list) table.row({channel.name, channel.unit});
   print("");
   print(table);
-}
-
-void add_assemble(CLI::App& program, int& status) {
-  const auto options = std::make_shared<AssembleOptions>();
-  CLI::App* command = add_command(program, "assemble", "the linear system of a scene: modes and state space");
-  command->add_option("SCENE", options->scene, "a scene (.yaml, .json)")->required();
-  command->add_option("-o,--output", options->output, "write A, B, C, D with named channels as JSON");
-  CLI::Option* reactions = command
-                               ->add_option("--reactions", options->reactions_hz,
-                                            "what joints and ground transmit at this frequency [Hz]; 0: at rest")
-                               ->check(CLI::NonNegativeNumber);
-  command
-      ->add_flag("--linearise", options->linearise,
-                 "of the recursive model, about the rest, equilibrium or constant spin that `simulation:` gives")
-      ->excludes(reactions);
-  command->add_flag("--json", options->json, "one JSON object (without the matrices)");
-  command->footer("Example: tenon assemble scene.yaml -o system.json --reactions 0.5");
-  command->callback([options, &status] { status = options->linearise ? run_linearised(*options) : run(*options); });
 }
 
 }  // namespace tenon::cli

@@ -1,20 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <filesystem>
-#include <optional>
 
+#include "interfaces/cli/commands.hpp"
 #include "interfaces/cli/output.hpp"
 #include "titop/state_space.hpp"
 
 namespace tenon::cli {
-
-struct AssembleOptions {
-  std::filesystem::path scene, output;
-  std::optional<double> reactions_hz;
-  bool linearise = false;
-  bool json = false;
-};
 
 /// `tenon assemble --linearise`.
 int run_linearised(const AssembleOptions& options);

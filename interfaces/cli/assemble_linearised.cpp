@@ -62,7 +62,7 @@ Json second_order(const assembly::LinearisedNetwork& l) {
   Json object{{"coordinates", l.coordinates}};
   for (const auto& [name, matrix] :
        {std::pair("M", &l.M), std::pair("C", &l.C), std::pair("K", &l.K), std::pair("B", &l.B), std::pair("J", &l.J)})
-    object[name] = matrix_rows<Json>(*matrix);
+    object[name] = reduction::matrix_rows<Json>(*matrix);
   return object;
 }
 

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
 #include <numbers>
 
 #include "assembly/scene/read.hpp"
@@ -21,14 +20,6 @@ using titop::BeamStudyEntry;
 using titop::End;
 using titop::Ends;
 
-struct Options {
-  double length = 0.0;
-  std::string section, material, bc;
-  int modes = 2, elements = 64;
-  std::filesystem::path svg;
-  bool json = false;
-};
-
 const std::vector<std::string> end_names{"clamped", "free", "pinned", "sliding"};
 
 End end_of(const std::string& word) {
@@ -42,7 +33,7 @@ End end_of(const std::string& word) {
   return static_cast<End>(at - end_names.begin());
 }
 
-std::vector<Ends> cases_of(const Options& options) {
+std::vector<Ends> cases_of(const BeamOptions& options) {
   if (options.bc.empty()) return titop::paper_cases();
   const std::size_t dash = options.bc.find('-');
   if (dash == std::string::npos)
@@ -93,7 +84,7 @@ std::pair<double, double> section_of(const std::string& text) {
 }
 
 /// √(EI/ρSl⁴) of the user's beam [rad/s]; 1 when none is given.
-double unit_of(const Options& options) {
+double unit_of(const BeamOptions& options) {
   const int given = (options.length > 0.0) + !options.section.empty() + !options.material.empty();
   if (given == 0) return 1.0;
   if (given < 3)
@@ -142,7 +133,8 @@ report::Plot picture(const std::vector<BeamConvergence>& curves, const Ends& end
   return plot;
 }
 
-void print_people(const BeamStudy& s, const std::vector<BeamConvergence>& curves, double unit, const Options& options) {
+void print_people(const BeamStudy& s, const std::vector<BeamConvergence>& curves, double unit,
+                  const BeamOptions& options) {
   const bool own = unit != 1.0;
   print(own ? fmt::format("Bending in one plane: 1 = {:.6g} Hz (Euler-Bernoulli; shear and rotary inertia neglected)",
                           hertz(unit))
@@ -183,7 +175,9 @@ void print_people(const BeamStudy& s, const std::vector<BeamConvergence>& curves
       "values above come from channel inversion and from a null-space route alike."));
 }
 
-int run(const Options& options) {
+}  // namespace
+
+int run(const BeamOptions& options) {
   const double unit = unit_of(options);
   const std::vector<Ends> cases = cases_of(options);
   const BeamStudy s = titop::beam_study(cases, options.modes, options.elements);
@@ -200,26 +194,6 @@ int run(const Options& options) {
   print_people(s, curves, unit, options);
   if (!options.svg.empty()) print(fmt::format("Written: {}", options.svg.string()));
   return done;
-}
-
-}  // namespace
-
-void add_beam(CLI::App& program, int& status) {
-  const auto options = std::make_shared<Options>();
-  CLI::App* command = add_command(program, "beam", "analytic against finite-element beams");
-  command->add_option("--length", options->length, "of your beam [m]; without a beam: the tables of the TITOP paper")
-      ->check(CLI::PositiveNumber);
-  command->add_option("--section", options->section,
-                      "circle:R, tube:OUTER,INNER, rectangle:B,H (bends along B) or general:A,I [m]");
-  command->add_option("--material", options->material, "aluminium, steel or titanium");
-  command->add_option("--bc", options->bc, "two ends, e.g. clamped-free: that case alone, with its convergence");
-  command->add_option("--modes", options->modes, "fixed-interface modes kept")->check(CLI::Range(1, 24));
-  command->add_option("--elements", options->elements, "finite elements")->check(CLI::Range(2, 512));
-  command->add_option("--svg", options->svg, "write both convergences as a picture (of the first case without --bc)");
-  command->add_flag("--json", options->json, "one JSON object");
-  command->footer(
-      "Example: tenon beam --length 2 --section tube:0.05,0.046 --material aluminium --bc clamped-free --svg beam.svg");
-  command->callback([options, &status] { status = run(*options); });
 }
 
 }  // namespace tenon::cli

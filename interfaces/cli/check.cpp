@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <memory>
 
 #include "assembly/build.hpp"
 #include "assembly/second_order.hpp"
@@ -12,11 +11,6 @@
 
 namespace tenon::cli {
 namespace {
-
-struct Options {
-  std::filesystem::path scene;
-  bool json = false;
-};
 
 /// One thing that was looked at.
 struct Finding {
@@ -193,7 +187,9 @@ void print_people(const assembly::Scene& scene, const Report& report) {
     for (const std::string& line : body.losses) print(wrapped(fmt::format("read past in {}: {}", body.name, line), 4));
 }
 
-int run(const Options& options) {
+}  // namespace
+
+int run(const CheckOptions& options) {
   const assembly::Scene scene = assembly::read_scene(options.scene);
   const Report report = examine(scene);
   if (options.json)
@@ -201,17 +197,6 @@ int run(const Options& options) {
   else
     print_people(scene, report);
   return good(report) ? done : check_failed;
-}
-
-}  // namespace
-
-void add_check(CLI::App& program, int& status) {
-  const auto options = std::make_shared<Options>();
-  CLI::App* command = add_command(program, "check", "read and plan a scene: mass, rigid motions, grounding, ports");
-  command->add_option("SCENE", options->scene, "a scene (.yaml, .json)")->required();
-  command->add_flag("--json", options->json, "one JSON object");
-  command->footer("Example: tenon check scene.yaml");
-  command->callback([options, &status] { status = run(*options); });
 }
 
 }  // namespace tenon::cli

@@ -1,23 +1,108 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
 
-/// One function a command: it adds the command and its options to the program; running it sets `status`.
+/// The commands of the program: what their options say, and a function that runs them and returns the exit status.
 namespace tenon::cli {
 
-/// A command of the program without options yet. Here alone is a CLI::App made, whose code is long to compile.
-CLI::App* add_command(CLI::App& program, const char* name, const char* description);
+/// What a mesh or deck holds.
+struct InfoOptions {
+  std::filesystem::path file;
+  bool json = false;
+};
+int run(const InfoOptions& options);
 
-void add_info(CLI::App& program, int& status);
-void add_init(CLI::App& program, int& status);
-void add_check(CLI::App& program, int& status);
-void add_modes(CLI::App& program, int& status);
-void add_reduce(CLI::App& program, int& status);
-void add_assemble(CLI::App& program, int& status);
-void add_frf(CLI::App& program, int& status);
-void add_sweep(CLI::App& program, int& status);
-void add_simulate(CLI::App& program, int& status);
-void add_beam(CLI::App& program, int& status);
-void add_doctor(CLI::App& program, int& status);
+/// A commented scene for a mesh.
+struct InitOptions {
+  std::filesystem::path mesh, output;
+};
+int run(const InitOptions& options);
+
+/// Reads and plans a scene.
+struct CheckOptions {
+  std::filesystem::path scene;
+  bool json = false;
+};
+int run(const CheckOptions& options);
+
+/// Natural frequencies of a scene or a deck.
+struct ModesOptions {
+  std::filesystem::path file, vtu;
+  int count = 20;
+  std::vector<double> band_hz;
+  std::vector<std::string> clamp, allow;
+  bool full = false, json = false;
+};
+int run(const ModesOptions& options);
+
+/// One body of a scene, reduced.
+struct ReduceOptions {
+  std::filesystem::path scene, output;
+  std::string body;
+  bool linear = false, json = false;
+};
+int run(const ReduceOptions& options);
+
+/// The linear system of a scene.
+struct AssembleOptions {
+  std::filesystem::path scene, output;
+  std::optional<double> reactions_hz;
+  bool linearise = false;
+  bool json = false;
+};
+int run(const AssembleOptions& options);
+
+/// Frequency responses of a scene.
+struct FrfOptions {
+  std::filesystem::path scene, output, svg;
+  std::string from;
+  std::vector<std::string> to;
+  std::vector<double> band_hz;
+  int points = 400;
+  bool json = false;
+};
+int run(const FrfOptions& options);
+
+/// Modes against the angle of a joint.
+struct SweepOptions {
+  std::filesystem::path scene, output, svg, shapes;
+  std::string joint, from = "0", to = "360";
+  std::vector<double> at;
+  int steps = 37, modes = 5;
+  bool hold = false, json = false;
+};
+int run(const SweepOptions& options);
+
+/// Large motion over time.
+struct SimulateOptions {
+  std::filesystem::path scene, out, resume;
+  double time = 0.0, step = 0.0, tolerance = 0.0, sample = 0.0;
+  std::string method;
+  bool json = false;
+};
+int run(const SimulateOptions& options);
+
+/// Analytic against finite-element beams.
+struct BeamOptions {
+  double length = 0.0;
+  std::string section, material, bc;
+  int modes = 2, elements = 64;
+  std::filesystem::path svg;
+  bool json = false;
+};
+int run(const BeamOptions& options);
+
+/// What the program runs on, and what dynamics cost there.
+struct DoctorOptions {
+  bool cost = false;            ///< what forward dynamics costs, counted and measured
+  std::filesystem::path scene;  ///< measured itself, in place of chains
+  std::vector<int> bodies{10};  ///< of the chains
+  std::filesystem::path svg;    ///< a picture of the ratios (Figure 2 of the paper); none when empty
+  bool json = false;
+};
+int run(const DoctorOptions& options);
 
 }  // namespace tenon::cli

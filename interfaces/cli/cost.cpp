@@ -79,7 +79,7 @@ void print_people(const std::vector<Row>& rows) {
 }
 
 /// The system that `tenon simulate` makes of a scene.
-int run_scene(const CostOptions& options) {
+int run_scene(const DoctorOptions& options) {
   const assembly::Scene scene = assembly::read_moving_scene(options.scene);
   const assembly::SceneSimulation section = assembly::read_simulation(scene);
   ProgressBar bar;
@@ -111,7 +111,7 @@ int run_scene(const CostOptions& options) {
 
 }  // namespace
 
-int run_cost(const CostOptions& options) {
+int run_cost(const DoctorOptions& options) {
   if (!options.scene.empty()) return run_scene(options);
   std::vector<Row> rows;
   {

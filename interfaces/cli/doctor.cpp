@@ -11,7 +11,6 @@
 #include <Spectra/Util/Version.h>
 #include <Eigen/Core>
 #include <cstdlib>
-#include <memory>
 
 #include "interfaces/cli/commands.hpp"
 #include "interfaces/cli/cost.hpp"
@@ -65,16 +64,17 @@ Json collect() {
   object["licence"] = {{"source", "Apache-2.0"},
                        {"binary",
                         "GPL-2.0-or-later terms (with Apache-2.0 source: version 3) apply to this binary as a whole, "
-                        "since Debian's CHOLMOD "
-                        "holds the Supernodal, MatrixOps and Modify modules, which are GPL. MUMPS is CeCILL-C. The "
-                        "source of the project "
-                        "stays Apache-2.0."}};
+                        "since Debian's CHOLMOD holds the Supernodal, MatrixOps and Modify modules, which are GPL. MUMPS "
+                        "is CeCILL-C. The source of the project stays Apache-2.0."}};
   return object;
 }
 
-int run(bool json) {
+}  // namespace
+
+int run(const DoctorOptions& options) {
+  if (options.cost) return run_cost(options);
   const Json object = collect();
-  if (json) {
+  if (options.json) {
     print(object);
     return done;
   }
@@ -95,25 +95,6 @@ int run(bool json) {
   print("\n" + wrapped("Licence of the source: " + object["licence"]["source"].get<std::string>() + "."));
   print(wrapped("Licence effect on binaries: " + object["licence"]["binary"].get<std::string>()));
   return done;
-}
-
-}  // namespace
-
-void add_doctor(CLI::App& program, int& status) {
-  const auto options = std::make_shared<CostOptions>();
-  const auto cost = std::make_shared<bool>(false);
-  CLI::App* command = add_command(program, "doctor", "versions, libraries, BLAS kernel, threads, licence effect");
-  command->add_flag("--json", options->json, "one JSON object");
-  CLI::Option* costs = command->add_flag(
-      "--cost", *cost, "operations and seconds of forward dynamics, composite against articulated bodies");
-  command->add_option("--bodies", options->bodies, "of the chains of --cost")
-      ->check(CLI::Range(1, 1000))
-      ->needs(costs)
-      ->capture_default_str();
-  command->add_option("--svg", options->svg, "write the ratios of --cost as a picture")->needs(costs);
-  command->add_option("scene", options->scene, "measure its system with --cost, in place of chains")->needs(costs);
-  command->footer("Example: tenon doctor --cost --bodies 2 10 100 --svg cost.svg");
-  command->callback([=, &status] { status = *cost ? run_cost(*options) : run(options->json); });
 }
 
 }  // namespace tenon::cli

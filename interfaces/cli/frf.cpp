@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <numbers>
 
 #include "assembly/build.hpp"
@@ -17,15 +16,6 @@ namespace tenon::cli {
 namespace {
 
 using assembly::FrequencyResponse;
-
-struct Options {
-  std::filesystem::path scene, output, svg;
-  std::string from;
-  std::vector<std::string> to;
-  std::vector<double> band_hz;
-  int points = 400;
-  bool json = false;
-};
 
 /// What was computed, with names and units.
 struct Result {
@@ -53,7 +43,7 @@ std::vector<int> channels_named(const std::vector<titop::Channel>& channels, con
   return found;
 }
 
-std::pair<double, double> band_of(const Options& options, const assembly::Scene& scene,
+std::pair<double, double> band_of(const FrfOptions& options, const assembly::Scene& scene,
                                   const assembly::SystemModes& modes) {
   double low = 0.0, high = 0.0;
   if (!options.band_hz.empty()) {
@@ -74,7 +64,7 @@ std::pair<double, double> band_of(const Options& options, const assembly::Scene&
   return {low, high};
 }
 
-Result compute(const Options& options) {
+Result compute(const FrfOptions& options) {
   const assembly::Scene scene = assembly::read_scene(options.scene);
   assembly::Network network;
   {
@@ -191,7 +181,9 @@ void print_people(const Result& result) {
   print(table);
 }
 
-int run(const Options& options) {
+}  // namespace
+
+int run(const FrfOptions& options) {
   const Result result = compute(options);
   if (!options.output.empty()) write_output(options.output, result);
   if (!options.svg.empty()) report::write_svg(options.svg, picture(result));
@@ -203,25 +195,6 @@ int run(const Options& options) {
   for (const auto& path : {options.output, options.svg})
     if (!path.empty()) print(fmt::format("Written: {}", path.string()));
   return done;
-}
-
-}  // namespace
-
-void add_frf(CLI::App& program, int& status) {
-  const auto options = std::make_shared<Options>();
-  CLI::App* command = add_command(program, "frf", "frequency response of a scene from an input to outputs");
-  command->add_option("SCENE", options->scene, "a scene (.yaml, .json)")->required();
-  command->add_option("--from", options->from, "an input of the scene")->required();
-  command->add_option("--to", options->to, "outputs of the scene; a name without direction takes all of its own")
-      ->required()
-      ->expected(1, -1);
-  command->add_option("--band", options->band_hz, "F0 F1 [Hz]; the scene's required band when absent")->expected(2);
-  command->add_option("--points", options->points, "points of the grid, peaks get more")->check(CLI::Range(2, 100000));
-  command->add_option("-o,--output", options->output, "write gain and phase as .csv or .json");
-  command->add_option("--svg", options->svg, "write a picture");
-  command->add_flag("--json", options->json, "one JSON object");
-  command->footer("Example: tenon frf scene.yaml --from torque --to rate --svg frf.svg -o frf.csv");
-  command->callback([options, &status] { status = run(*options); });
 }
 
 }  // namespace tenon::cli

@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <map>
-#include <memory>
 
 #include "fem/error.hpp"
 #include "fem/formats/nastran.hpp"
@@ -13,11 +12,6 @@
 
 namespace tenon::cli {
 namespace {
-
-struct Options {
-  std::filesystem::path file;
-  bool json = false;
-};
 
 const char* kind_name(const fem::Element& element) {
   static constexpr const char* names[] = {"beams", "4-node shells", "3-node shells", "lumped masses", "springs"};
@@ -105,7 +99,9 @@ void print_people(const fem::Mesh& mesh, const fem::Model* model, const Eigen::A
   for (const std::string& line : losses) print(wrapped(line, 4));
 }
 
-int run(const Options& options) {
+}  // namespace
+
+int run(const InfoOptions& options) {
   const InputKind kind = kind_of(options.file);
   if (kind == InputKind::scene)
     throw InputError({options.file.string()}, "this is a scene, not a mesh", "Use `tenon check` for scenes");
@@ -126,17 +122,6 @@ int run(const Options& options) {
   else
     print_people(mesh, structural, box);
   return done;
-}
-
-}  // namespace
-
-void add_info(CLI::App& program, int& status) {
-  const auto options = std::make_shared<Options>();
-  CLI::App* command = add_command(program, "info", "what a mesh or deck holds, and what was read past");
-  command->add_option("MESH", options->file, "a mesh (.msh) or Nastran deck (.bdf, .dat)")->required();
-  command->add_flag("--json", options->json, "one JSON object");
-  command->footer("Example: tenon info panel.msh");
-  command->callback([options, &status] { status = run(*options); });
 }
 
 }  // namespace tenon::cli

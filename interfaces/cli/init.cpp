@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <iostream>
-#include <memory>
 
 #include "fem/error.hpp"
 #include "fem/formats/atomic_file.hpp"
@@ -13,10 +12,6 @@
 
 namespace tenon::cli {
 namespace {
-
-struct Options {
-  std::filesystem::path mesh, output;
-};
 
 /// The highest dimension of a set's cells, 0 for points alone.
 int dimension_of(const fem::Mesh& mesh, const std::vector<std::vector<int>>& blocks) {
@@ -76,7 +71,9 @@ std::string scene_for(const fem::Mesh& mesh, const std::filesystem::path& file) 
       port_lines(mesh));
 }
 
-int run(const Options& options) {
+}  // namespace
+
+int run(const InitOptions& options) {
   if (kind_of(options.mesh) != InputKind::mesh)
     throw InputError({options.mesh.string()}, "this is no mesh that lacks a scene",
                      "Name a .msh file; decks are solved as they are by `tenon modes`");
@@ -92,17 +89,6 @@ int run(const Options& options) {
   file.commit();
   print(fmt::format("Written: {}", options.output.string()));
   return done;
-}
-
-}  // namespace
-
-void add_init(CLI::App& program, int& status) {
-  const auto options = std::make_shared<Options>();
-  CLI::App* command = add_command(program, "init", "write a commented scene for a mesh, to fill in");
-  command->add_option("MESH", options->mesh, "a mesh (.msh)")->required();
-  command->add_option("-o,--output", options->output, "a file in the mesh's folder; standard output when absent");
-  command->footer("Example: tenon init panel.msh -o scene.yaml");
-  command->callback([options, &status] { status = run(*options); });
 }
 
 }  // namespace tenon::cli

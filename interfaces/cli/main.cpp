@@ -1,11 +1,12 @@
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <exception>
 
 #include "fem/error.hpp"
 #include "fem/mesh.hpp"
-#include "interfaces/cli/commands.hpp"
+#include "interfaces/cli/arguments.hpp"
 #include "interfaces/cli/output.hpp"
 
 namespace {
@@ -29,10 +30,6 @@ bool unknown_command(const CLI::App& program, int argc, char** argv) {
 
 }  // namespace
 
-CLI::App* tenon::cli::add_command(CLI::App& program, const char* name, const char* description) {
-  return program.add_subcommand(name, description);
-}
-
 int main(int argc, char** argv) {
   CLI::App program{
       "From FE meshes to models that can be joined: reduced bodies, assembled systems, modes and responses.\n"
@@ -41,17 +38,7 @@ int main(int argc, char** argv) {
   program.require_subcommand(1);
   program.set_version_flag("--version", TENON_VERSION);
   int status = cli::done;
-  cli::add_info(program, status);
-  cli::add_init(program, status);
-  cli::add_check(program, status);
-  cli::add_modes(program, status);
-  cli::add_reduce(program, status);
-  cli::add_assemble(program, status);
-  cli::add_frf(program, status);
-  cli::add_sweep(program, status);
-  cli::add_simulate(program, status);
-  cli::add_beam(program, status);
-  cli::add_doctor(program, status);
+  cli::add_commands(program, status);
   if (unknown_command(program, argc, argv)) return cli::bad_input;
   try {
     program.parse(argc, argv);

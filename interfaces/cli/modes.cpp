@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <memory>
 #include <numbers>
 
 #include "fem/error.hpp"
@@ -14,12 +13,12 @@
 namespace tenon::cli {
 namespace {
 
-Json modes_json(const ModesCommand& options, const fem::Structure& structure, const reduction::Modes& modes) {
+Json modes_json(const ModesOptions& options, const fem::Structure& structure, const reduction::Modes& modes) {
   Json object{
       {"source", options.file.string()}, {"model", "full"}, {"dofs", structure.n()}, {"rigid_modes", modes.rigid}};
   object["frequencies_hz"] = Json::array();
   for (const double lambda : modes.lambda)
-    if (options.shows(omega_of(lambda))) object["frequencies_hz"].push_back(hertz(omega_of(lambda)));
+    if (shows(options, omega_of(lambda))) object["frequencies_hz"].push_back(hertz(omega_of(lambda)));
   object["max_residual"] = modes.max_residual;
   object["max_orthogonality"] = modes.max_orthogonality;
   object["counted"] = modes.counted;
@@ -27,11 +26,11 @@ Json modes_json(const ModesCommand& options, const fem::Structure& structure, co
   return object;
 }
 
-void print_modes(const ModesCommand& options, const fem::Structure& structure, const reduction::Modes& modes) {
+void print_modes(const ModesOptions& options, const fem::Structure& structure, const reduction::Modes& modes) {
   print(fmt::format("{}: {} degrees of freedom, unreduced", options.file.string(), structure.n()));
   Table table({"mode", "frequency [Hz]"});
   for (Eigen::Index k = 0; k < modes.lambda.size(); ++k)
-    if (options.shows(omega_of(modes.lambda[k])))
+    if (shows(options, omega_of(modes.lambda[k])))
       table.row({std::to_string(k + 1), frequency_text(omega_of(modes.lambda[k]), k < modes.rigid)});
   print(table);
   print(fmt::format("  residuals at most {:.1e}; {}", modes.max_residual,
@@ -40,7 +39,7 @@ void print_modes(const ModesCommand& options, const fem::Structure& structure, c
                                                     hertz(omega_of(modes.count_shift)), modes.counted)));
 }
 
-void write_pictures(const ModesCommand& options, const fem::Model& model, const fem::Structure& structure,
+void write_pictures(const ModesOptions& options, const fem::Model& model, const fem::Structure& structure,
                     const reduction::Modes& modes) {
   if (options.vtu.empty()) return;
   Eigen::VectorXd omega = modes.lambda.cwiseMax(0.0).cwiseSqrt();
@@ -48,7 +47,7 @@ void write_pictures(const ModesCommand& options, const fem::Model& model, const 
   fem::write_vtu(options.vtu, pictures.mesh, pictures.modes);
 }
 
-int run_deck(const ModesCommand& options) {
+int run_deck(const ModesOptions& options) {
   fem::Mesh mesh;
   fem::Model model = deck_model(options.file, options.allow, &mesh);
   const int status = modes_of_model(options, std::move(model), mesh);
@@ -57,7 +56,9 @@ int run_deck(const ModesCommand& options) {
   return status;
 }
 
-int run(const ModesCommand& options) {
+}  // namespace
+
+int run(const ModesOptions& options) {
   if (!options.band_hz.empty() && !(options.band_hz[0] < options.band_hz[1]))
     throw InputError({"--band"}, "the band is empty", "Write the lower frequency first, in Hz: --band 0 50");
   switch (kind_of(options.file)) {
@@ -72,9 +73,7 @@ int run(const ModesCommand& options) {
                    fmt::format("Write a scene for it: `tenon init {}` makes one to fill in", options.file.string()));
 }
 
-}  // namespace
-
-reduction::Modes solve(const fem::Structure& structure, const ModesCommand& options, int count,
+reduction::Modes solve(const fem::Structure& structure, const ModesOptions& options, int count,
                        const reduction::Progress& progress) {
   reduction::ModesOptions solver;
   solver.count = count;
@@ -83,7 +82,7 @@ reduction::Modes solve(const fem::Structure& structure, const ModesCommand& opti
   return reduction::solve_modes(structure, solver);
 }
 
-int modes_of_model(const ModesCommand& options, fem::Model model, const fem::Mesh& mesh) {
+int modes_of_model(const ModesOptions& options, fem::Model model, const fem::Mesh& mesh) {
   for (const std::string& set : options.clamp)
     for (const int node : fem::points_of_set(mesh, set))
       for (int k = 0; k < 6; ++k) model.supports.push_back({{node, k}});
@@ -99,22 +98,6 @@ int modes_of_model(const ModesCommand& options, fem::Model model, const fem::Mes
   else
     print_modes(options, structure, modes);
   return done;
-}
-
-void add_modes(CLI::App& program, int& status) {
-  const auto options = std::make_shared<ModesCommand>();
-  CLI::App* command = add_command(program, "modes", "natural frequencies of a scene or of a Nastran deck");
-  command->add_option("INPUT", options->file, "a scene (.yaml, .json) or deck (.bdf, .dat)")->required();
-  command->add_option("--count", options->count, "how many modes, rigid ones included")->check(CLI::Range(1, 100000));
-  command->add_option("--band", options->band_hz, "instead of --count: all modes between F0 and F1 [Hz]")->expected(2);
-  command->add_flag("--full", options->full, "the unreduced FE model, beside the reduced one");
-  command->add_option("--clamp", options->clamp, "hold all dofs of a set of a deck, e.g. boundary")->expected(1, -1);
-  command->add_option("--allow", options->allow, "a card that may be read past although it carries stiffness or mass");
-  command->add_option("--vtu", options->vtu, "write the mode shapes for ParaView");
-  command->add_flag("--json", options->json, "one JSON object");
-  command->footer(
-      "Examples: tenon modes scene.yaml --full --count 12\n          tenon modes part.bdf --clamp boundary");
-  command->callback([options, &status] { status = run(*options); });
 }
 
 }  // namespace tenon::cli

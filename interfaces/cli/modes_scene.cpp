@@ -24,7 +24,7 @@ struct Full {
 
 /// Ritz values lie above the exact ones index by index (Courant-Fischer), so order alone pairs the two lists.
 Full compare(const assembly::Scene& scene, const assembly::Network& network, const assembly::SystemModes& modes,
-             const ModesCommand& command, int shown, const reduction::Progress& progress) {
+             const ModesOptions& command, int shown, const reduction::Progress& progress) {
   const fem::Structure structure = fem::assemble(assembly::full_model(scene, network).model);
   const reduction::Modes exact = solve(structure, command, shown, progress);
 
@@ -44,7 +44,7 @@ Full compare(const assembly::Scene& scene, const assembly::Network& network, con
 }
 
 Json to_json(const assembly::Scene& scene, const assembly::SystemModes& modes, Eigen::Index coordinates,
-             const std::optional<Full>& full, const ModesCommand& command, Eigen::Index shown) {
+             const std::optional<Full>& full, const ModesOptions& command, Eigen::Index shown) {
   Json object{{"source", scene.file.string()},   {"model", "reduced"},
               {"coordinates", coordinates},      {"rigid_modes", modes.rigid},
               {"frequencies_hz", Json::array()}, {"damping_ratios", Json::array()}};
@@ -54,7 +54,7 @@ Json to_json(const assembly::Scene& scene, const assembly::SystemModes& modes, E
                       {"frequencies_hz", Json::array()},
                       {"relative_errors", Json::array()}};
   for (Eigen::Index k = 0; k < shown; ++k) {
-    if (!command.shows(modes.omega[k])) continue;
+    if (!shows(command, modes.omega[k])) continue;
     object["frequencies_hz"].push_back(hertz(modes.omega[k]));
     object["damping_ratios"].push_back(modes.zeta[k]);
     if (full && k < static_cast<Eigen::Index>(full->omega.size())) {
@@ -71,13 +71,13 @@ Json to_json(const assembly::Scene& scene, const assembly::SystemModes& modes, E
 }
 
 void print_people(const assembly::Scene& scene, const assembly::SystemModes& modes, Eigen::Index coordinates,
-                  const std::optional<Full>& full, const ModesCommand& command, Eigen::Index shown) {
+                  const std::optional<Full>& full, const ModesOptions& command, Eigen::Index shown) {
   print(fmt::format("{}: {} coordinates{}", scene.file.string(), coordinates,
                     full ? fmt::format(" in place of {} degrees of freedom", full->dofs) : std::string()));
   Table table(full ? std::vector<std::string>{"mode", "reduced [Hz]", "full [Hz]", "error", "damping"}
                    : std::vector<std::string>{"mode", "frequency [Hz]", "damping"});
   for (Eigen::Index k = 0; k < shown; ++k) {
-    if (!command.shows(modes.omega[k])) continue;
+    if (!shows(command, modes.omega[k])) continue;
     const bool rigid = k < modes.rigid;
     std::vector<std::string> row{std::to_string(k + 1), frequency_text(modes.omega[k], rigid)};
     if (full && k < static_cast<Eigen::Index>(full->omega.size())) {
@@ -97,7 +97,7 @@ void print_people(const assembly::Scene& scene, const assembly::SystemModes& mod
 
 }  // namespace
 
-int modes_of_scene(const ModesCommand& command) {
+int modes_of_scene(const ModesOptions& command) {
   const assembly::Scene scene = assembly::read_scene(command.file);
   if (!command.clamp.empty())
     throw InputError({command.file.string()}, "--clamp is for decks", "Write `ground: [body.port]` into the scene");

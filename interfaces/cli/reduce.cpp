@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <memory>
 
 #include "assembly/build.hpp"
 #include "fem/error.hpp"
@@ -11,12 +10,6 @@
 
 namespace tenon::cli {
 namespace {
-
-struct Options {
-  std::filesystem::path scene, output;
-  std::string body;
-  bool linear = false, json = false;
-};
 
 const char* const directions[] = {"x", "y", "z", "rx", "ry", "rz"};
 
@@ -102,7 +95,9 @@ void print_people(const reduction::ReducedBody& body) {
   print(table);
 }
 
-int run(const Options& options) {
+}  // namespace
+
+int run(const ReduceOptions& options) {
   const assembly::Scene scene = assembly::read_scene(options.scene);
   const assembly::SceneBody& body = assembly::body_named(scene, options.body);
   assembly::BodyPlan plan = assembly::plan(scene).bodies[static_cast<std::size_t>(&body - scene.bodies.data())];
@@ -120,22 +115,6 @@ int run(const Options& options) {
   print_people(reduced);
   if (!options.output.empty()) print(fmt::format("\nWritten: {}", options.output.string()));
   return done;
-}
-
-}  // namespace
-
-void add_reduce(CLI::App& program, int& status) {
-  const auto options = std::make_shared<Options>();
-  CLI::App* command =
-      add_command(program, "reduce", "one body of a scene to modes, with certificate and effective mass");
-  command->add_option("SCENE", options->scene, "a scene (.yaml, .json)")->required();
-  command->add_option("--body", options->body, "which body")->required();
-  command->add_option("-o,--output", options->output, "write the reduced body, *.body.json");
-  command->add_flag("--linear", options->linear,
-                    "leave out what large motion needs (shape integrals, geometric stiffening)");
-  command->add_flag("--json", options->json, "one JSON object");
-  command->footer("Example: tenon reduce scene.yaml --body panel -o panel.body.json");
-  command->callback([options, &status] { status = run(*options); });
 }
 
 }  // namespace tenon::cli

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <memory>
+#include <exception>
 
 #include "assembly/build.hpp"
 #include "assembly/integration/checkpoint.hpp"
@@ -20,13 +20,6 @@
 
 namespace tenon::cli {
 namespace {
-
-struct Options {
-  std::filesystem::path scene, out, resume;
-  double time = 0.0, step = 0.0, tolerance = 0.0, sample = 0.0;
-  std::string method;
-  bool json = false;
-};
 
 const char* word(assembly::Flexibility level) {
   constexpr const char* words[] = {"full", "dropped", "rigid", "auto"};
@@ -57,7 +50,7 @@ struct Result {
 
 /// Which method when none is named: fixed steps where a step and no tolerance is given, the command line before the
 /// scene.
-assembly::Method choose_method(const Options& options, const assembly::SceneSimulation& scene) {
+assembly::Method choose_method(const SimulateOptions& options, const assembly::SceneSimulation& scene) {
   const std::string& named = options.method.empty() ? scene.method : options.method;
   if (!named.empty()) return assembly::method_named(named);
   const bool by_line = options.step > 0.0 || options.tolerance > 0.0;
@@ -66,7 +59,7 @@ assembly::Method choose_method(const Options& options, const assembly::SceneSimu
 }
 
 /// The command line before the scene, the scene before what we choose.
-assembly::IntegrationOptions run_options(const Options& options, const assembly::SceneSimulation& scene) {
+assembly::IntegrationOptions run_options(const SimulateOptions& options, const assembly::SceneSimulation& scene) {
   const auto either = [](double given, const std::optional<double>& written) {
     return given > 0.0 ? given : written.value_or(0.0);
   };
@@ -93,7 +86,7 @@ assembly::IntegrationOptions run_options(const Options& options, const assembly:
 }
 
 /// A run that goes on keeps what it began with, unless the command line says otherwise.
-assembly::IntegrationState resume(const Options& options, const assembly::Multibody& system,
+assembly::IntegrationState resume(const SimulateOptions& options, const assembly::Multibody& system,
                                   assembly::IntegrationOptions& run) {
   assembly::Checkpoint checkpoint = assembly::read_checkpoint(options.resume, system);
   if (!options.method.empty() && checkpoint.method != run.method)
@@ -126,8 +119,7 @@ void note_deflections(double tolerance, Result& result) {
     if (!body.full && body.deflection > tolerance)
       result.notes.push_back(
           fmt::format("Body '{}' deformed by {:.2g} of its size while its deformation is dropped: its ports and mass "
-                      "stay where they "
-                      "were, and what follows from them is wrong by about that.",
+                      "stay where they were, and what follows from them is wrong by about that.",
                       body.name, body.deflection));
 }
 
@@ -139,7 +131,28 @@ void note_spin(const assembly::Multibody& system, const assembly::SpinRatio& spi
       system.bodies[static_cast<std::size_t>(spin.body)].name, spin.ratio));
 }
 
-Result compute(const Options& options) {
+/// The folder of a run, made before it begins; gone again when the run is refused and nothing was written.
+class OutputFolder {
+ public:
+  explicit OutputFolder(const std::filesystem::path& path) : path_(path) {
+    if (path.empty()) return;
+    std::error_code fault;
+    made_ = std::filesystem::create_directories(path, fault);
+    if (fault) throw InputError({path.string()}, fault.message(), "Choose a folder that can be made");
+  }
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+  ~OutputFolder() {
+    std::error_code kept;  // a folder that holds something stays
+    if (made_ && std::uncaught_exceptions() > 0) std::filesystem::remove(path_, kept);
+  }
+
+ private:
+  std::filesystem::path path_;
+  bool made_ = false;
+};
+
+Result compute(const SimulateOptions& options) {
   const assembly::Scene scene = assembly::read_moving_scene(options.scene);
   assembly::SceneSimulation section = assembly::read_simulation(scene);
   Result result;
@@ -189,11 +202,7 @@ Result compute(const Options& options) {
   const auto keep = [&](const assembly::IntegrationState& state) {
     if (!options.out.empty() && Clock::now() - written >= std::chrono::seconds(30)) save(state);
   };
-  if (!options.out.empty()) {
-    std::error_code fault;
-    std::filesystem::create_directories(options.out, fault);
-    if (fault) throw InputError({options.out.string()}, fault.message(), "Choose a folder that can be made");
-  }
+  const OutputFolder folder(options.out);
   result.integration = assembly::integrate(system, loads, result.state, result.run, observe, keep);
   result.wall = std::chrono::duration<double>(Clock::now() - begun).count();
   if (!options.out.empty()) save(result.state);
@@ -219,7 +228,7 @@ void write_csv(const std::filesystem::path& path, const Result& result) {
 }
 
 /// One picture for the outputs of each unit, one for the energies.
-std::vector<std::filesystem::path> write_pictures(const Options& options, const Result& result) {
+std::vector<std::filesystem::path> write_pictures(const SimulateOptions& options, const Result& result) {
   std::vector<std::filesystem::path> written;
   const auto draw = [&](const std::string& file, const std::string& title, const std::string& label, auto&& take) {
     report::Plot plot{
@@ -246,7 +255,7 @@ std::vector<std::filesystem::path> write_pictures(const Options& options, const 
   return written;
 }
 
-std::vector<std::filesystem::path> write_files(const Options& options, const Result& result) {
+std::vector<std::filesystem::path> write_files(const SimulateOptions& options, const Result& result) {
   const std::string stem = options.resume.empty() ? "history" : fmt::format("history_from_{:g}", result.t.front());
   std::vector<std::filesystem::path> written{options.out / (stem + ".csv"), options.out / (stem + ".npz")};
   write_csv(written[0], result);
@@ -313,7 +322,9 @@ void print_deformation(const Result& result) {
   print(table);
 }
 
-int run(const Options& options) {
+}  // namespace
+
+int run(const SimulateOptions& options) {
   const Result result = compute(options);
   const assembly::Integration& i = result.integration;
   if (result.t.empty() && !i.failure.empty()) throw Error(i.failure);
@@ -347,43 +358,6 @@ int run(const Options& options) {
   if (!i.failure.empty()) print(wrapped(fmt::format("Incomplete: {}", i.failure), 0));
   for (const auto& file : files) print(fmt::format("Written: {}", file.string()));
   return status;
-}
-
-/// CLI11's own PositiveNumber lets "nan" and "inf" pass.
-const CLI::Validator positive(
-    [](std::string& word) -> std::string {
-      double x = 0.0;
-      return CLI::detail::lexical_cast(word, x) && std::isfinite(x) && x > 0.0
-                 ? ""
-                 : fmt::format("'{}' is no positive number", word);
-    },
-    "POSITIVE");
-
-}  // namespace
-
-void add_simulate(CLI::App& program, int& status) {
-  const auto options = std::make_shared<Options>();
-  CLI::App* command = add_command(program, "simulate", "large motion of a scene over time");
-  command->add_option("SCENE", options->scene, "a scene (.yaml, .json), perhaps with `simulation:`")->required();
-  command->add_option("--time", options->time, "until when [s]")->check(positive);
-  command->add_option("--step", options->step, "of methods with fixed steps; the first one of others [s]")
-      ->check(positive);
-  command
-      ->add_option("--tolerance", options->tolerance, "relative, of methods that choose their steps; 1e-6 when absent")
-      ->check(positive);
-  command->add_option("--method", options->method,
-                      fmt::format("{}; generalized-alpha with a step and no tolerance, else bdf (dormand-prince when "
-                                  "loops close)",
-                                  assembly::method_choice));
-  command
-      ->add_option("--sample", options->sample,
-                   "time between samples [s]; 1000 samples when absent, or as before with --resume")
-      ->check(positive);
-  command->add_option("--out", options->out, "a folder for history.csv, history.npz, pictures and checkpoint.json");
-  command->add_option("--resume", options->resume, "go on from a checkpoint.json");
-  command->add_flag("--json", options->json, "one JSON object");
-  command->footer("Example: tenon simulate scene.yaml --time 60 --step 0.01 --out run");
-  command->callback([options, &status] { status = run(*options); });
 }
 
 }  // namespace tenon::cli

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
 #include <numbers>
 
 #include "assembly/build.hpp"
@@ -18,14 +17,6 @@ namespace tenon::cli {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
-
-struct Options {
-  std::filesystem::path scene, output, svg, shapes;
-  std::string joint, from = "0", to = "360";
-  std::vector<double> at;
-  int steps = 37, modes = 5;
-  bool hold = false, json = false;
-};
 
 struct Result {
   std::string joint;
@@ -63,7 +54,7 @@ double angle_of(const std::string& text, const char* option) {
   return unit == "rad" ? value : value * degree;
 }
 
-Result compute(const Options& options) {
+Result compute(const SweepOptions& options) {
   const assembly::Scene scene = assembly::read_scene(options.scene);
   ProgressBar bar;
   const assembly::Network network = assembly::build_network(scene, assembly::plan(scene), bar.callback());
@@ -97,7 +88,7 @@ double flexible(const assembly::SweepPoint& point, std::size_t k) {
   return at < point.omega.size() ? point.omega[at] : std::numeric_limits<double>::quiet_NaN();
 }
 
-Json to_json(const Result& result, const Options& options) {
+Json to_json(const Result& result, const SweepOptions& options) {
   Json object{{"joint", result.joint}, {"held", options.hold}, {"points", Json::array()}};
   for (const assembly::SweepPoint& point : result.points) {
     Json entry{{"angle_deg", point.angle / degree}, {"rigid_modes", point.rigid}, {"frequencies_hz", Json::array()}};
@@ -142,7 +133,7 @@ report::Plot picture(const Result& result, std::size_t modes, bool hold) {
 }
 
 /// PREFIX_0.svg, PREFIX_180.svg ... of --shapes PREFIX.svg; the file itself when there is one angle.
-std::vector<std::filesystem::path> write_shapes(const Result& result, const Options& options) {
+std::vector<std::filesystem::path> write_shapes(const Result& result, const SweepOptions& options) {
   std::vector<std::filesystem::path> written;
   for (std::size_t p = 0; p < result.pictures.size(); ++p) {
     const assembly::SweepPoint& point = result.pictures[p];
@@ -166,7 +157,10 @@ std::vector<std::filesystem::path> write_shapes(const Result& result, const Opti
   return written;
 }
 
-int run(Options options) {
+}  // namespace
+
+int run(const SweepOptions& given) {
+  SweepOptions options = given;
   if (!options.shapes.empty() && options.at.empty()) options.at = {0.0, 180.0};
   if (options.shapes.empty() && !options.at.empty())
     throw InputError({"--at"}, "angles are given for pictures that are not asked for", "Add --shapes FILE.svg");
@@ -195,27 +189,6 @@ int run(Options options) {
   print(table);
   for (const auto& path : written) print(fmt::format("Written: {}", path.string()));
   return done;
-}
-
-}  // namespace
-
-void add_sweep(CLI::App& program, int& status) {
-  const auto options = std::make_shared<Options>();
-  CLI::App* command = add_command(program, "sweep", "modes of a scene against the angle of a joint");
-  command->add_option("SCENE", options->scene, "a scene (.yaml, .json)")->required();
-  command->add_option("--joint", options->joint, "a revolute joint of the scene")->required();
-  command->add_option("--from", options->from, "first angle [deg]; 0 when absent");
-  command->add_option("--to", options->to, "last angle [deg]; 360 when absent");
-  command->add_option("--steps", options->steps, "points, both ends included")->check(CLI::Range(1, 1000000));
-  command->add_option("--modes", options->modes, "flexible modes at each angle")->check(CLI::Range(1, 1000));
-  command->add_flag("--hold", options->hold, "the joint is clamped at each angle");
-  command->add_option("-o,--output", options->output, "write a table as .csv");
-  command->add_option("--svg", options->svg, "write frequencies against the angle as a picture");
-  command->add_option("--shapes", options->shapes, "write pictures of the mode shapes, seen along z");
-  command->add_option("--at", options->at, "angles of these pictures [deg]; 0 and 180 when absent")->expected(1, -1);
-  command->add_flag("--json", options->json, "one JSON object");
-  command->footer("Example: tenon sweep fourbar.yaml --joint drive --hold --steps 361 --svg fourbar.svg --modes 3");
-  command->callback([options, &status] { status = run(*options); });
 }
 
 }  // namespace tenon::cli
