@@ -1,9 +1,7 @@
 #pragma once
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <cmath>
-#include <numbers>
+#include <Eigen/Core>
+#include <string>
 
 #include "reduction/reduced_body.hpp"
 

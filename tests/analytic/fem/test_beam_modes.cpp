@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/SparseCholesky>
 #include <array>
 #include <cmath>
 #include <numbers>

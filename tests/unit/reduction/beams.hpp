@@ -1,9 +1,9 @@
 #pragma once
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
-#include <numbers>
+#include <cmath>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "fem/structure.hpp"
 #include "reduction/reduced_body.hpp"

@@ -1,9 +1,6 @@
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <random>
-#include <span>
 #include <vector>
 
 #include "reduction/reduced_body.hpp"

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/Sparse>
+#include <Eigen/SparseCore>
 #include <functional>
 #include <span>
 #include <vector>
