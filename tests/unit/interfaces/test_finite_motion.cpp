@@ -89,8 +89,8 @@ TEST_F(FiniteMotion, AssembleLinearisesAboutASpin) {
 }
 
 // A flywheel turned by the torque T loads the blade with w = ρA (T/1e10) x, so that its tip turns by ρA L⁴
-// (T/1e10)/8EI, more than it moves over L; twice that when the torque steps. First frequency: 3.516 √(EI/ρAL⁴) = 3.80
-// rad/s.
+// (T/1e10)/8EI, more than it moves over L = 10 m; twice that when the torque steps. First frequency:
+// 3.516 √(EI/ρAL⁴) = 3.80 rad/s.
 TEST_F(FiniteMotion, ThePlanTakesWhatTheMotionRequires) {
   const auto run = [&](double torque, const std::string& level, const std::string& band) {
     const std::string rest = fmt::format(
@@ -114,9 +114,10 @@ TEST_F(FiniteMotion, ThePlanTakesWhatTheMotionRequires) {
     EXPECT_EQ(planned["plan"][0]["taken"], level);
     const double foreseen = planned["plan"][0]["deflection_of_size"], turn = 1.2e4 * torque / 1e10 / (8.0 * 1.4e4);
     EXPECT_NEAR(foreseen / (2.0 * turn), 1.0, 1e-5);  // static shapes are kept; beside the flywheel it weighs 4e-8
-    EXPECT_LE(full["deformation"][0]["largest_deflection_of_size"].get<double>(), 1.05 * foreseen);  // second mode
+    const double most = 1.05 * foreseen;  // the second mode's share
+    EXPECT_LE(full["deformation"][0]["largest_deflection_of_size"].get<double>(), most);
     const auto tip = [](const json& of) { return of["channels"][0]["last"].get<double>(); };
-    EXPECT_NEAR(tip(planned), tip(full), level == std::string("full") ? 1e-12 : 1e-3 * 10.0);  // tolerance times L
+    EXPECT_NEAR(tip(planned), tip(full), level == std::string("full") ? 1e-12 : most * 10.0);  // its bending left out
   }
 }
 

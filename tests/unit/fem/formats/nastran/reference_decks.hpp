@@ -22,7 +22,7 @@ class NastranDecks : public ::testing::Test {
  protected:
   void SetUp() override {
     if (!std::filesystem::exists(shared_deck("full.dat")))
-      GTEST_SKIP() << "The decks are another program's and may not be copied here. Set TENON_SHARED: see above.";
+      GTEST_SKIP() << "Set TENON_SHARED: see above.";  // another program's decks may not be copied here
   }
 };
 
