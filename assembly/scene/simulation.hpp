@@ -55,8 +55,7 @@ struct SceneSimulation {
 Scene read_moving_scene(const std::filesystem::path& path);
 
 /// The section of the scene's file, duration and gravity from `run` where it is silent; empty when there is neither.
-/// Throws InputError like read_scene(), for joints, bodies
-/// and inputs that the scene does not have as well.
+/// Throws InputError like read_scene(), for joints, bodies and inputs that the scene does not have as well.
 SceneSimulation read_simulation(const Scene& scene);
 
 }  // namespace tenon::assembly
