@@ -20,7 +20,7 @@ void generalized_alpha_step(Dynamics& dynamics, double t, double h, const Implic
   work.a = (state.v_dot - alpha_m * state.a) / (1.0 - alpha_m);
   work.iterations = 0;
   const double tolerance = options.tolerance > 0.0 ? options.tolerance : 1e-10;
-  Convergence convergence{t, h, tolerance, options.most_iterations, work};
+  Convergence convergence{t, h, tolerance, options.most_iterations, round_off_of_gaps(dynamics), work};
   for (;;) {
     work.delta = h * from.v + h * h * ((0.5 - beta) * state.a + beta * work.a);
     to.q = from.q;
@@ -39,9 +39,10 @@ void generalized_alpha_step(Dynamics& dynamics, double t, double h, const Implic
       closure_rows(system, dynamics.sweeps, to.q, to.v, dynamics.rows);
       work.r.noalias() -= dynamics.rows.J_t * dynamics.lambda;
     }
-    const double size2 = correction(dynamics, mu / (beta * h * h), work, dynamics.lambda);
+    const CorrectionSize size = correction(dynamics, mu / (beta * h * h), work, dynamics.lambda);
     work.a += work.x / mu;
-    if (convergence.reached(size2 * std::pow(gamma * h / mu, 2))) break;
+    const double to_speeds = std::pow(gamma * h / mu, 2);
+    if (convergence.reached({size.all * to_speeds, size.forces * to_speeds})) break;
   }
   work.delta = h * from.v + h * h * ((0.5 - beta) * state.a + beta * work.a);
   move(system, work.delta, state.motion.q);

@@ -30,15 +30,17 @@ void factor(Dynamics& dynamics, const MotionState& state, const ImplicitTerms& t
   closure_inertia(*dynamics.system, work.matrix, dynamics.rows, work.inertia);
 }
 
-double correction(Dynamics& dynamics, double per_gap, ImplicitWork& work, VectorXd& force) {
+CorrectionSize correction(Dynamics& dynamics, double per_gap, ImplicitWork& work, VectorXd& force) {
   solve(*dynamics.system, work.matrix, work.r, work.x);
   work.x = -work.x;
-  if (!dynamics.loops()) return -work.x.dot(work.r);
+  const double forces = -work.x.dot(work.r);
+  if (!dynamics.loops()) return {forces, forces};
+  work.gap_left = dynamics.rows.gap.cwiseAbs().maxCoeff();
   dynamics.rows.gamma = per_gap * dynamics.rows.gap;
   close(dynamics.rows, work.inertia, work.x, work.change);
   force += work.change;
   work.delta.noalias() = dynamics.rows.J_t * work.change;
-  return work.x.dot(work.delta - work.r);
+  return {work.x.dot(work.delta - work.r), forces};
 }
 
 void close_speeds(Dynamics& dynamics, Sweeps& sweeps, ImplicitWork& work, MotionState& state) {
@@ -56,9 +58,9 @@ void close_speeds(Dynamics& dynamics, Sweeps& sweeps, ImplicitWork& work, Motion
   set_state(*dynamics.system, state.q, state.v, sweeps);
 }
 
-bool Convergence::reached(double size2) {
+bool Convergence::reached(const CorrectionSize& correction) {
   constexpr double round_off = 1e-11;  // corrections that shrink no more below this share are round-off
-  const double size = std::sqrt(std::abs(size2));
+  const double size2 = correction.all, size = std::sqrt(std::abs(size2));
   const int count = ++work.iterations;
   if (!std::isfinite(size2))
     throw NumericalError(fmt::format("the step of {:.3g} s from t = {:.6g} s does not converge", h, t), size2,
@@ -68,7 +70,8 @@ bool Convergence::reached(double size2) {
   const double rate = count > 1 && last > 0.0 ? size / last : 1.0;
   // what is left after this correction: size × rate/(1 − rate)
   const bool done = size <= tolerance * scale || (rate < 0.5 && size * rate / (1.0 - rate) <= tolerance * scale) ||
-                    (rate > 0.5 && size <= round_off * scale);
+                    (rate > 0.5 && std::sqrt(std::abs(correction.forces)) <= round_off * scale &&
+                     (size <= round_off * scale || work.gap_left <= closed));
   last = size;
   if (!done && count >= most_iterations)
     throw NumericalError(fmt::format("the step of {:.3g} s from t = {:.6g} s does not converge in {} iterations; the "

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "assembly/integration/dynamics.hpp"
 
 /// Implicit steps: quasi-Newton whose iteration matrix M + γh C + βh² K is the implicit articulated body (NUMERICS 4e),
@@ -62,22 +64,32 @@ void midpoint_step(Dynamics& dynamics, double t, double h, const ImplicitOptions
 /// Articulates M + γh C + βh² K at a state, and Λ of the closures with it.
 void factor(Dynamics& dynamics, const MotionState& state, const ImplicitTerms& terms, ImplicitWork& work);
 
-/// work.x = −M̂⁻¹ r, moved so that J x = −gap × `per_gap`; adds the change of the closures' forces to `force`. Returns
-/// x·M̂ x.
-double correction(Dynamics& dynamics, double per_gap, ImplicitWork& work, Eigen::VectorXd& force);
+/// The size x·M̂ x of a correction, and that of what forces alone ask for: the rest closes gaps.
+struct CorrectionSize {
+  double all, forces;
+};
+
+/// work.x = −M̂⁻¹ r, moved so that J x = −gap × `per_gap`; adds the change of the closures' forces to `force`.
+CorrectionSize correction(Dynamics& dynamics, double per_gap, ImplicitWork& work, Eigen::VectorXd& force);
 
 /// Moves the speeds of a state so that the loops do not open, J v = 0, by the least change in the metric of M̂; sets the
 /// sweeps to it.
 void close_speeds(Dynamics& dynamics, Sweeps& sweeps, ImplicitWork& work, MotionState& state);
 
-/// Decides by the sizes x·M̂x of corrections (as energies) when to stop.
+/// Decides by the sizes of corrections (as energies) when to stop.
 struct Convergence {
   double t, h, tolerance;
   int most_iterations;
+  double closed;  ///< gaps no larger are round-off [m]: short steps make large corrections of them
   ImplicitWork& work;
   double last = 0.0;
   /// Throws NumericalError when a correction is no number or there are too many.
-  bool reached(double size2);
+  bool reached(const CorrectionSize& size);
 };
+
+/// The round-off of positions in a system of that size [m].
+inline double round_off_of_gaps(const Dynamics& dynamics) {
+  return 16.0 * std::numeric_limits<double>::epsilon() * dynamics.rows.length;
+}
 
 }  // namespace tenon::assembly

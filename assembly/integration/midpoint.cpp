@@ -130,7 +130,7 @@ void midpoint_step(Dynamics& dynamics, double t, double h, const ImplicitOptions
   work.impulse = h * dynamics.lambda;
   work.iterations = 0;
   const double tolerance = options.tolerance > 0.0 ? options.tolerance : 1e-15;
-  Convergence convergence{t, h, tolerance, options.most_iterations, work};
+  Convergence convergence{t, h, tolerance, options.most_iterations, round_off_of_gaps(dynamics), work};
   const auto place = [&] {
     mid.v = 0.5 * (from.v + to.v);
     work.delta = h * mid.v;
@@ -173,13 +173,11 @@ void midpoint_step(Dynamics& dynamics, double t, double h, const ImplicitOptions
     if (dynamics.loops()) {  // forces with J of the middle, positions closed at the end
       closure_rows(system, work.end, to.q, to.v, dynamics.rows);
       work.gap = dynamics.rows.gap;
-      work.gap_left = work.gap.cwiseAbs().maxCoeff();
       closure_rows(system, dynamics.sweeps, mid.q, mid.v, dynamics.rows);
       dynamics.rows.gap = work.gap;
       work.r.noalias() -= dynamics.rows.J_t * work.impulse;
     }
-    const double size2 = correction(dynamics, 2.0 / h, work, work.impulse);
-    const bool last = convergence.reached(size2);
+    const bool last = convergence.reached(correction(dynamics, 2.0 / h, work, work.impulse));
     apply();
     if (last) break;
   }

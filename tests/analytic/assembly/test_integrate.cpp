@@ -220,5 +220,40 @@ TEST(Integrate, EventsAreFoundToATenthOfANanosecond) {
   }
 }
 
+// A parallelogram linkage hangs and swings as one pendulum: I φ̇² = 2 S g (cos φ − cos φ₀), φ from the vertical. Three
+// of its closure's rows are redundant, and steps of 1e-6 s make of a round-off of the gap speeds beside which it is
+// slow.
+TEST(Integrate, AParallelogramLeavesItsRestWithShortSteps) {
+  using testing::rod;
+  constexpr double g = 9.81, r = 0.5, phi0 = 0.6;
+  Multibody mb;
+  mb.bodies = {rod("crank", 1.0, r, 0.02), rod("coupler", 2.0, 1.0, 0.04), rod("follower", 1.0, r, 0.02)};
+  mb.bodies[1].parent = 0;
+  mb.bodies[1].inner_port = 1;
+  mb.bodies[2].inner_position = {1.0, 0.0, 0.0};
+  mb.closures.push_back({"pin", {1, 1}, {2, 1}, Vec3::Zero(), HingeKind::revolute, Mat3::Identity(), Mat3::Identity()});
+  mb.gravity = {0.0, -g, 0.0};
+  index(mb);
+  const Eigen::MatrixXd& crank = mb.bodies[0].body->D;
+  const double I = 2.0 * crank(5, 5) + 2.0 * r * r, S = 2.0 * crank(5, 1) + 2.0 * r;  // about the pivots
+  MotionState start = rest_state(mb);
+  start.q << phi0 - 0.5 * std::numbers::pi, 0.5 * std::numbers::pi - phi0, phi0 - 0.5 * std::numbers::pi;
+  for (const Method method : {Method::midpoint, Method::generalized_alpha})
+    for (const double h : {1e-4, 1e-6}) {
+      IntegrationState state = begin(mb, start);
+      const Integration result = integrate(
+          mb, {}, state, {.method = method, .until = 300.0 * h, .step = h, .sample = 300.0 * h, .tolerance = {}},
+          [](const Sample&) { return true; });
+      EXPECT_EQ(result.failure, "") << name(method) << " " << h;
+      const double phi = state.at.motion.q[0] + 0.5 * std::numbers::pi;
+      const double drop = std::sin(0.5 * (phi0 + phi)) * std::sin(0.5 * (phi0 - phi));  // ½ (cos φ − cos φ₀)
+      const double rate = -std::sqrt(4.0 * S * g * drop / I);
+      std::cout << name(method) << " " << h << " s: " << state.at.motion.v[0] / rate - 1.0 << ", gap "
+                << result.worst_gap << " m\n";
+      EXPECT_LT(result.worst_gap, 1e-14);
+      EXPECT_NEAR(state.at.motion.v[0] / rate, 1.0, 1e-6);
+    }
+}
+
 }  // namespace
 }  // namespace tenon::assembly
