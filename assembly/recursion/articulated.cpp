@@ -36,7 +36,8 @@ using PaddedInertia = Eigen::Matrix<double, 8, 6>;
 Eigen::Map<PaddedInertia> inertia(Gathered& at) { return Eigen::Map<PaddedInertia>(at.P[0]); }
 
 // The modes of body k out of its articulated inertia: D_f, μ of eq (63); P_R is left in place of P.
-void take_out_modes(const HingedBody& b, const ImplicitTerms& implicit, BodySweep& s, Gathered& at) {
+void take_out_modes(const HingedBody& b, const ImplicitTerms& implicit, const Ahead& ahead, BodySweep& s,
+                    Gathered& at) {
   const Index n = s.n;
   if (s.Pi_F.cols() > 0) {  // H_f = [1, −Π_Fᵀ]: D_f = P_ff − P_fr Π_F − Π_Fᵀ P_rf + Π_Fᵀ P_rr Π_F, μ = P_rf − P_rr Π_F
     const Mat6 P_rr = inertia(at).topRows<6>().selfadjointView<Eigen::Lower>();
@@ -59,7 +60,7 @@ void take_out_modes(const HingedBody& b, const ImplicitTerms& implicit, BodySwee
     }
   }
   const int failed =
-      sweep_kernels().eliminate_modes(s.n, least_pivot, s.L11.data(), s.inverse.data(), s.L21.data(), at.P[0]);
+      sweep_kernels().eliminate_modes(s.n, least_pivot, s.L11.data(), s.inverse.data(), s.L21.data(), at.P[0], ahead);
   if (failed >= 0) no_inertia(b, fmt::format("mode {}", failed + 1));
 }
 
@@ -123,14 +124,15 @@ void add_to_parent(const BodySweep& s, const Gathered& at, const double* U, Body
 }
 
 // Eq (63) for body k: what its children left goes on to its parent. `keep`: leaves P_plus.
-void articulate_body(const Multibody& system, const ImplicitTerms& implicit, bool keep, std::size_t k, Sweeps& sweeps) {
+void articulate_body(const Multibody& system, const ImplicitTerms& implicit, bool keep, std::size_t k,
+                     const Ahead& ahead, Sweeps& sweeps) {
   const SweepKernels& kernels = sweep_kernels();
   const HingedBody& b = system.bodies[k];
   BodySweep& s = sweeps.bodies[k];
   Gathered& at = sweeps.gathered[static_cast<std::size_t>(s.gathered)];
   if (s.leaf) open_inertia(s, at);
   const Vec6 size = inertia(at).diagonal().cwiseAbs();  // what pivots of the hinge are left of
-  if (s.n > 0) take_out_modes(b, implicit, s, at);
+  if (s.n > 0) take_out_modes(b, implicit, ahead, s, at);
   alignas(64) double U[8];
   if (s.r == 1) {
     double extra = s.rotor;
@@ -168,7 +170,8 @@ constexpr double still[8] = {};
 
 // Eq (64) for body k, tip to base: ε_f into z_f, ν_R into v_dot, z on to the parent.
 template <bool Motion>
-void gather_forces(const Multibody& system, const VectorXd& T, std::size_t k, Sweeps& sweeps, VectorXd& v_dot) {
+void gather_forces(const Multibody& system, const VectorXd& T, std::size_t k, const Ahead& ahead, Sweeps& sweeps,
+                   VectorXd& v_dot) {
   const SweepKernels& kernels = sweep_kernels();
   BodySweep& s = sweeps.bodies[k];
   Gathered& at = sweeps.gathered[static_cast<std::size_t>(s.gathered)];
@@ -177,7 +180,7 @@ void gather_forces(const Multibody& system, const VectorXd& T, std::size_t k, Sw
   if (n > 0) {
     s.z_f.head(n) = T.segment(first, n) - s.z_f.head(n);  // ε_f
     for (Index i = 0; i < s.Pi_F.cols(); ++i) s.z_f[i] += s.Pi_F.col(i).dot(Eigen::Map<const Vec6>(at.z));
-    kernels.lower_sweep(s.n, s.L11.data(), s.inverse.data(), s.L21.data(), s.z_f.data(), at.z);  // z_r + g ε_f
+    kernels.lower_sweep(s.n, s.L11.data(), s.inverse.data(), s.L21.data(), s.z_f.data(), at.z, ahead);  // z_r + g ε_f
   }
   Gathered* to = nullptr;
   BodySweep* parent = nullptr;
@@ -209,7 +212,8 @@ void gather_forces(const Multibody& system, const VectorXd& T, std::size_t k, Sw
 
 // Eq (64) for body k, base to tip: β̇ = ν_R − G_R* α_R⁺, η̈ = ν_f − g* α_R.
 template <bool Motion>
-void accelerate(const Multibody& system, const Vec6& base, std::size_t k, Sweeps& sweeps, VectorXd& v_dot) {
+void accelerate(const Multibody& system, const Vec6& base, std::size_t k, const Ahead& ahead, Sweeps& sweeps,
+                VectorXd& v_dot) {
   const SweepKernels& kernels = sweep_kernels();
   BodySweep& s = sweeps.bodies[k];
   const Index n = s.n, r = s.r, first = system.v_offset[k];
@@ -240,7 +244,7 @@ void accelerate(const Multibody& system, const Vec6& base, std::size_t k, Sweeps
   if (n == 0) return;
   Eigen::Matrix<double, 8, 1> alpha;
   alpha << s.alpha, 0.0, 0.0;
-  kernels.upper_sweep(s.n, s.L11.data(), s.inverse.data(), s.L21.data(), alpha.data(), s.z_f.data());
+  kernels.upper_sweep(s.n, s.L11.data(), s.inverse.data(), s.L21.data(), alpha.data(), s.z_f.data(), ahead);
   v_dot.segment(first, n) = s.z_f.head(n);
   for (Index i = 0; i < s.Pi_F.cols(); ++i) s.alpha -= s.z_f[i] * s.Pi_F.col(i);
 }
@@ -250,8 +254,8 @@ void accelerate(const Multibody& system, Sweeps& sweeps, VectorXd& v_dot) {
   Vec6 base = Vec6::Zero();
   if constexpr (Motion) base.head<3>() = -system.gravity;
   for (std::size_t k = 0; k < sweeps.bodies.size(); ++k) {
-    if (sweeps.large) fetch_ahead(sweeps, k, 1, dynamics_reach);
-    accelerate<Motion>(system, base, k, sweeps, v_dot);
+    const Ahead ahead = sweeps.large ? fetch_ahead(sweeps, k, 1, dynamics_reach) : Ahead{};
+    accelerate<Motion>(system, base, k, ahead, sweeps, v_dot);
   }
 }
 
@@ -259,32 +263,31 @@ void accelerate(const Multibody& system, Sweeps& sweeps, VectorXd& v_dot) {
 template <class Pass>
 void inward(const Sweeps& sweeps, const Pass& pass) {
   for (std::size_t k = sweeps.bodies.size(); k-- > 0;) {
-    if (sweeps.large) fetch_ahead(sweeps, k, -1, dynamics_reach);
-    pass(k);
+    pass(k, sweeps.large ? fetch_ahead(sweeps, k, -1, dynamics_reach) : Ahead{});
   }
 }
 
 }  // namespace
 
 void articulate(const Multibody& system, Sweeps& sweeps, const ImplicitTerms& implicit) {
-  inward(sweeps, [&](std::size_t k) { articulate_body(system, implicit, true, k, sweeps); });
+  inward(sweeps, [&](std::size_t k, const Ahead& ahead) { articulate_body(system, implicit, true, k, ahead, sweeps); });
 }
 
 void forward_dynamics(const Multibody& system, Sweeps& sweeps, const VectorXd& T, VectorXd& v_dot) {
-  inward(sweeps, [&](std::size_t k) { gather_forces<true>(system, T, k, sweeps, v_dot); });
+  inward(sweeps, [&](std::size_t k, const Ahead& ahead) { gather_forces<true>(system, T, k, ahead, sweeps, v_dot); });
   accelerate<true>(system, sweeps, v_dot);
 }
 
 void articulated_forward_dynamics(const Multibody& system, Sweeps& sweeps, const VectorXd& T, VectorXd& v_dot) {
-  inward(sweeps, [&](std::size_t k) {
-    articulate_body(system, {}, false, k, sweeps);
-    gather_forces<true>(system, T, k, sweeps, v_dot);
+  inward(sweeps, [&](std::size_t k, const Ahead& ahead) {
+    articulate_body(system, {}, false, k, ahead, sweeps);
+    gather_forces<true>(system, T, k, {}, sweeps, v_dot);
   });
   accelerate<true>(system, sweeps, v_dot);
 }
 
 void solve(const Multibody& system, Sweeps& sweeps, const VectorXd& f, VectorXd& x) {
-  inward(sweeps, [&](std::size_t k) { gather_forces<false>(system, f, k, sweeps, x); });
+  inward(sweeps, [&](std::size_t k, const Ahead& ahead) { gather_forces<false>(system, f, k, ahead, sweeps, x); });
   accelerate<false>(system, sweeps, x);
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "assembly/recursion/multibody.hpp"
+#include "assembly/recursion/sweep_kernels.hpp"
 #include "fem/rigid_motion.hpp"
 
 /// Work space of the recursions. What every pass reads stands at the head of a body's record; blocks whose size depends
@@ -33,19 +34,21 @@ struct alignas(64) BodySweep {
   bool opens = false;             ///< the first to reach its parent, tip to base
   bool plain = false;             ///< a revolute hinge between nodes that do not deform: X by θ alone, H_F constant
   bool fixed_node = true;         ///< node t does not deform
+  bool shifts_mass = false;       ///< M_m follows η
   double sign = 1.0;              ///< −1: the hinge is reversed
   double rotor = 0.0;             ///< inertia on the one β of a hinge with one
   double inverse_D = 0.0;         ///< 1/D_R of a hinge with one degree of freedom
 
-  alignas(64) double P_a[8] = {};    ///< P_R a_mR, padded
-  RigidMotion X;                     ///< F_k seen from node t of the parent, in the parent's axes
-  Vec3 to_node = Vec3::Zero();       ///< node t from the parent's reference, parent's axes [m]
-  Vec6 V, a;                         ///< twist and a_mR, eqs (11), (25)
-  Vec6 alpha;                        ///< inertial rate of V
-  Columns H_F{nullptr, 6, 0};        ///< 6×n_r: H_F* = φ*(O_k, k) H*
-  Columns G_R{nullptr, 6, 0};        ///< 6×n_r
-  Vector b{nullptr, 0};              ///< n+6, eq (37), less the loads at ports
-  Matrix M{nullptr, 0, 0};           ///< (n+6)×(n+6) over (η, x_ref), eq (23); shared while constant
+  alignas(64) double P_a[8] = {};  ///< P_R a_mR, padded
+  RigidMotion X;                   ///< F_k seen from node t of the parent, in the parent's axes
+  Vec3 to_node = Vec3::Zero();     ///< node t from the parent's reference, parent's axes [m]
+  Vec6 V, a;                       ///< twist and a_mR, eqs (11), (25)
+  Vec6 alpha;                      ///< inertial rate of V
+  Columns H_F{nullptr, 6, 0};      ///< 6×n_r: H_F* = φ*(O_k, k) H*
+  Columns G_R{nullptr, 6, 0};      ///< 6×n_r
+  Vector b{nullptr, 0};            ///< n+6, eq (37), less the loads at ports
+  Matrix M{nullptr, 0, 0};         ///< (n+6)×(n+6) over (η, x_ref), eq (23); shared while constant
+  const ReducedBody* body = nullptr;
   Vec3 own_node = Vec3::Zero();      ///< node d from the reference, undeformed
   Mat3 inner_axes, outer_axes;       ///< of the hinge, see HingedBody
   RigidMotion world;                 ///< F_k seen from the inertial frame
@@ -98,27 +101,32 @@ struct Sweeps {
   std::vector<CacheLine> store;
 };
 
-/// What a pass reads of a body, bytes from the head of its record and of its blocks.
+/// What a pass reads of a body: cache lines from the head of its record and of its blocks.
 struct Reach {
-  std::size_t record, blocks;
+  int record, blocks;
 };
-inline constexpr Reach dynamics_reach{512, std::size_t{1} << 20},  ///< eqs (63) and (64)
-    motion_reach{832, 256};                                        ///< set_state()
+inline constexpr Reach dynamics_reach{8, 1 << 20},  ///< eqs (63) and (64)
+    motion_reach{13, 4};                            ///< set_state()
 
 /// Asks for what a pass in the direction of `step` (±1) will need of the bodies ahead: records early enough to know
-/// where their blocks are.
-inline void fetch_ahead(const Sweeps& sweeps, std::size_t k, std::ptrdiff_t step, const Reach& reach) {
+/// where their blocks are. Returns those blocks, for the kernels to ask for over the modes of body k; of a rigid body
+/// they are asked for here.
+inline Ahead fetch_ahead(const Sweeps& sweeps, std::size_t k, std::ptrdiff_t step, const Reach& reach) {
   constexpr std::ptrdiff_t records = 6, blocks = 3;  // bodies ahead
-  const auto fetch = [](const void* from, std::size_t bytes) {
-    for (std::size_t i = 0; i < bytes; i += 64) __builtin_prefetch(static_cast<const char*>(from) + i);
+  const auto fetch = [](const void* from, int lines) {
+    for (int i = 0; i < lines; ++i) __builtin_prefetch(static_cast<const char*>(from) + 64 * i);
   };
   const auto body = [&](std::ptrdiff_t ahead) {  // none beyond the last; the index wraps below zero
     const auto at = k + static_cast<std::size_t>(step * ahead);
     return at < sweeps.bodies.size() ? &sweeps.bodies[at] : nullptr;
   };
   if (const BodySweep* s = body(records)) fetch(s, reach.record);
-  if (const BodySweep* s = body(blocks))
-    fetch(s->H_F.data(), std::min(reach.blocks, static_cast<std::size_t>(s->stored) * sizeof(double)));
+  const BodySweep* s = body(blocks);
+  if (!s) return {};
+  const int lines = std::min(reach.blocks, s->stored / pad), n = sweeps.bodies[k].n;
+  if (n > 0 && lines > motion_reach.blocks) return {s->H_F.data(), (lines + n - 1) / n};
+  fetch(s->H_F.data(), lines);
+  return {};
 }
 
 }  // namespace tenon::assembly

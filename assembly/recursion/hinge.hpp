@@ -21,6 +21,9 @@ int hinge_coordinates(HingeKind kind);
 /// Where an attitude begins, both among the coordinates (its quaternion) and among the speeds: 0 or 3; −1 without one.
 int attitude(HingeKind kind);
 
+/// n_r numbers, inline storage.
+using HingeVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
+
 /// 6×n_r, inline storage.
 using HingeMap = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 6>;
 

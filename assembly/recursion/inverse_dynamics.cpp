@@ -54,17 +54,12 @@ void inverse_dynamics(const Multibody& system, Sweeps& sweeps, const VectorXd& v
 
 namespace {
 
-// Asks for the springs of bodies ahead.
+// Asks for the springs and dampers of a body ahead.
 void fetch_springs(const Multibody& system, std::size_t k) {
-  constexpr std::size_t records = 8, springs = 4;  // bodies ahead
-  if (k + records < system.bodies.size()) {
-    __builtin_prefetch(&system.bodies[k + records].body);
-    __builtin_prefetch(&system.bodies[k + records].stiffness);
-  }
-  if (k + springs < system.bodies.size()) {
-    __builtin_prefetch(system.bodies[k + springs].stiffness.data());
-    __builtin_prefetch(system.bodies[k + springs].damping.data());
-  }
+  constexpr std::size_t bodies = 12;
+  if (k + bodies >= system.bodies.size()) return;
+  const HingedBody& b = system.bodies[k + bodies];
+  __builtin_prefetch(&b), __builtin_prefetch(b.damping.data());
 }
 
 }  // namespace

@@ -91,6 +91,8 @@ void set_constants(const Multibody& system, const HingedBody& b, BodySweep& s) {
   s.parent = b.parent;
   s.n = b.modes();
   s.r = b.dofs();
+  s.body = b.body.get();
+  s.shifts_mass = !constant_mass(b);
   s.sign = b.reversed ? -1.0 : 1.0;
   s.rotor = s.r == 1 ? b.inertia[0] : 0.0;
   s.inner_axes = b.inner_axes;

@@ -36,7 +36,7 @@ void check(const Multibody& system, std::size_t k) {
     refuse("hangs by a port that it does not have", "Name one of its own ports");
   if (!frame(b.inner_axes) || !frame(b.outer_axes)) refuse("has a hinge frame that is none", frame_cure);
   if (!b.inner_position.allFinite()) refuse("hangs at a place that is no number", "Give finite coordinates");
-  for (const VectorXd* values : {&b.stiffness, &b.damping, &b.inertia})
+  for (const HingeVector* values : {&b.stiffness, &b.damping, &b.inertia})
     if (values->size() != b.dofs() || !values->allFinite() || (values->array() < 0.0).any())
       refuse(fmt::format("needs {} non-negative numbers for each of stiffness, damping and inertia of its {} hinge",
                          b.dofs(), name(b.kind)),
@@ -69,8 +69,8 @@ void index(Multibody& system) {
   system.nq = system.nv = 0;
   for (std::size_t k = 0; k < system.bodies.size(); ++k) {
     HingedBody& b = system.bodies[k];
-    for (VectorXd* values : {&b.stiffness, &b.damping, &b.inertia})
-      if (values->size() == 0) *values = VectorXd::Zero(b.dofs());
+    for (HingeVector* values : {&b.stiffness, &b.damping, &b.inertia})
+      if (values->size() == 0) *values = HingeVector::Zero(b.dofs());
     check(system, k);
     system.q_offset.push_back(system.nq);
     system.v_offset.push_back(system.nv);

@@ -22,20 +22,21 @@ enum class Deformation {
   dropped,  ///< neither: "ruthlessly linearised", eqs (75)–(78)
 };
 
-/// A body and the hinge it hangs by.
-struct HingedBody {
-  std::string name;
+/// A body and the hinge it hangs by. What passive_forces() reads of a hinge with one degree of freedom stands in two
+/// cache lines.
+struct alignas(64) HingedBody {
   std::shared_ptr<const ReducedBody> body;
-  Deformation deformation = Deformation::full;
-  int parent = -1;      ///< −1: the inertial frame
-  int inner_port = -1;  ///< node t of the parent, index into its ports
-  int outer_port = -1;  ///< node d of this body; −1: its reference
   HingeKind kind = HingeKind::weld;
-  bool reversed = false;                        ///< the hinge's own inboard side is on this body
-  Mat3 inner_axes = Mat3::Identity();           ///< hinge frame in the parent's axes (world axes for roots), undeformed
-  Vec3 inner_position = Vec3::Zero();           ///< of the hinge frame in the world [m]; roots only
-  Mat3 outer_axes = Mat3::Identity();           ///< hinge frame in this body's axes, undeformed
-  Eigen::VectorXd stiffness, damping, inertia;  ///< n_r each, on β: springs from rest, dampers, rotors
+  bool reversed = false;                    ///< the hinge's own inboard side is on this body
+  HingeVector stiffness, damping, inertia;  ///< n_r each, on β: springs from rest, dampers, rotors
+  std::string name;
+  Deformation deformation = Deformation::full;
+  int parent = -1;                     ///< −1: the inertial frame
+  int inner_port = -1;                 ///< node t of the parent, index into its ports
+  int outer_port = -1;                 ///< node d of this body; −1: its reference
+  Mat3 inner_axes = Mat3::Identity();  ///< hinge frame in the parent's axes (world axes for roots), undeformed
+  Vec3 inner_position = Vec3::Zero();  ///< of the hinge frame in the world [m]; roots only
+  Mat3 outer_axes = Mat3::Identity();  ///< hinge frame in this body's axes, undeformed
 
   int modes() const { return body->n(); }
   int dofs() const { return hinge_dofs(kind); }

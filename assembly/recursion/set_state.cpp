@@ -17,15 +17,12 @@ using fem::shift_twist;
 namespace {
 
 // M_m(η) and b_m; of a body whose deformation is dropped M_m stays as make_sweeps() left it, eq (75)
-void set_body_terms(const HingedBody& b, const double* eta, const double* eta_dot, const Vec3& w, BodySweep& s) {
-  const ReducedBody& body = *b.body;
-  const reduction::ShapeIntegrals* integrals = body.shape_integrals.get();
-  const Index n = b.modes();
-  if (n > 0 && integrals && b.deformation == Deformation::full) {
-    reduction::body_terms(body, integrals, reduction::Nonlinearity::full, eta, eta_dot, w, s.M, s.b);
-    return;
-  }
-  reduction::ruthless_gyroscopics(body, integrals, w, s.b);
+void set_body_terms(const double* eta, const double* eta_dot, const Vec3& w, BodySweep& s) {
+  const reduction::ShapeIntegrals* integrals = s.body->shape_integrals.get();
+  if (s.shifts_mass)
+    reduction::body_terms(*s.body, integrals, reduction::Nonlinearity::full, eta, eta_dot, w, s.M, s.b);
+  else
+    reduction::ruthless_gyroscopics(*s.body, integrals, w, s.b);
 }
 
 // Where a body hangs: pose, twist and a_mR from the state of its parent, eqs (45), (25), for any hinge and nodes that
@@ -118,7 +115,7 @@ void set_state(const Multibody& system, const VectorXd& q, const VectorXd& v, Sw
     if (s.n == 0)
       kernels.rigid_load(s.M.data(), s.V.data(), s.b.data());
     else
-      set_body_terms(system.bodies[k], eta, eta_dot, s.V.tail<3>(), s);
+      set_body_terms(eta, eta_dot, s.V.tail<3>(), s);
   }
   if (sweeps.stiffening) add_stiffening(system, q, sweeps);
 }

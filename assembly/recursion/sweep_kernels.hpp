@@ -8,6 +8,12 @@ inline constexpr int pad = 8;
 /// Length of a column over n modes.
 constexpr int padded(int n) { return (n + pad - 1) / pad * pad; }
 
+/// Memory that a kernel asks for while it works, so many cache lines with each mode: all at once would stall it.
+struct Ahead {
+  const double* from = nullptr;
+  int lines = 0;
+};
+
 /// A revolute hinge between nodes that do not deform.
 struct PlainHinge {
   const double *inner_axes, *outer_axes;  ///< 3×3 each: the hinge frame in the parent's and in the body's axes
@@ -27,11 +33,13 @@ struct SweepKernels {
                           double* P_ff, double* P_rf);
   /// D_f = L Lᵀ in place (strict lower half; 1/L_jj in `inverse`), X = μ L⁻ᵀ in place, P_R −= X Xᵀ, eq (63) with
   /// g μᵀ = X Xᵀ. Returns the first mode whose pivot falls to `least` of its diagonal or below, −1 when none does.
-  int (*eliminate_modes)(int n, double least, double* D, double* inverse, double* X, double* P_R);
+  int (*eliminate_modes)(int n, double least, double* D, double* inverse, double* X, double* P_R, Ahead ahead);
   /// y ← L⁻¹ y, z += X y (8): ε_f into what the hinge feels.
-  void (*lower_sweep)(int n, const double* L, const double* inverse, const double* X, double* y, double* z);
+  void (*lower_sweep)(int n, const double* L, const double* inverse, const double* X, double* y, double* z,
+                      Ahead ahead);
   /// y ← L⁻ᵀ (y − Xᵀ α): η̈ = ν_f − g* α_R.
-  void (*upper_sweep)(int n, const double* L, const double* inverse, const double* X, const double* alpha, double* y);
+  void (*upper_sweep)(int n, const double* L, const double* inverse, const double* X, const double* alpha, double* y,
+                      Ahead ahead);
   /// z_f += Π_tᵀ f over n modes.
   void (*add_mode_forces)(int n, const double* Pi_T, const double* f, double* z_f);
 

@@ -101,7 +101,8 @@ Multibody loop() {
   Multibody mb = tree();
   mb.bodies.resize(3);
   mb.bodies[0].kind = HingeKind::weld;
-  for (VectorXd* values : {&mb.bodies[0].stiffness, &mb.bodies[0].damping, &mb.bodies[0].inertia}) *values = VectorXd();
+  for (HingeVector* values : {&mb.bodies[0].stiffness, &mb.bodies[0].damping, &mb.bodies[0].inertia})
+    *values = VectorXd();
   index(mb);
   Closure rail;
   rail.name = "rail";
