@@ -107,7 +107,8 @@ void merge(LanczosResult& run, const LanczosResult& more) {
   run.vectors = vectors(Eigen::all, order);
 }
 
-// The search for the pairs of a large problem. It keeps what it found, to look again beside it.
+// The search for the pairs of a large problem. It keeps what it found, to look again beside it. It limits threads: the
+// count beside it does so for the whole process while it lasts, and digits must not depend on when it ends.
 class Search {
  public:
   Search(const Problem& p, int wanted, std::optional<double> sigma)
@@ -135,6 +136,7 @@ class Search {
   }
 
   Flexible pairs() const {
+    const ThreadLimit limit;
     const Eigen::Index kept = std::min<Eigen::Index>(cut_.modes + 1, run_.vectors.cols());
     const Eigen::VectorXd theta = run_.ritz.theta.head(kept);
     Flexible result{theta.cwiseInverse().array() - p_.at.s, op_.shapes(run_.vectors.leftCols(kept)), cut_};
@@ -149,6 +151,7 @@ class Search {
   }
   LanczosResult look(int modes, int width, std::uint64_t seed, std::optional<double> up_to,
                      const std::function<void(const RitzValues&)>& watch = {}) const {
+    const ThreadLimit limit;
     LanczosResult run = find_pairs(op_, p_.options, locked_, modes, width, seed, p_.at.s, up_to, watch);
     if (!run.converged)
       throw NumericalError(fmt::format("the eigenvalue solver did not converge to {} modes; steps taken", modes),
@@ -223,6 +226,7 @@ void require_sizes(const fem::SparseMatrix& K, const fem::SparseMatrix& M, const
 
 // The pairs as modes, `returned` of them with the rigid ones, orthonormality and residuals checked.
 Modes checked_modes(const Problem& p, Flexible& f, int returned) {
+  const ThreadLimit limit;  // as the search
   const auto r = static_cast<int>(p.rigid.cols());
   // L⁻¹ magnifies rounding along the softest motions: take what is left of the rigid ones out, X ← (1 − RRᵀM) X
   if (r > 0) f.X -= p.rigid * transposed_product(p.rigid, symmetric_product(p.M, f.X));

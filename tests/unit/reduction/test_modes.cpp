@@ -1,9 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <atomic>
+#include <thread>
 
 #include "fem/error.hpp"
 #include "reduction/block_lanczos.hpp"
+#include "reduction/dense.hpp"
 #include "reduction/eigenpairs.hpp"
 #include "reduction/inertia.hpp"
 #include "reduction/modes.hpp"
@@ -164,6 +167,26 @@ TEST(BlockLanczos, TheSameInputGivesTheSameDigits) {
   const Modes a = solve_modes(p.K, p.M, none, sparse(12)), b = solve_modes(p.K, p.M, none, sparse(12));
   EXPECT_EQ(a.lambda, b.lambda);
   EXPECT_EQ(a.shapes, b.shapes);
+}
+
+TEST(BlockLanczos, DigitsDoNotDependOnTheThreadsThatOthersTake) {
+  const Pencil p = grid(28, 22);
+  const Modes a = solve_modes(p.K, p.M, none, sparse(12));
+  std::atomic<bool> done = false;
+  std::thread other([&] {  // as counts do that begin and end beside the search
+    while (!done) {
+      const ThreadLimit limit;
+      std::this_thread::yield();
+    }
+  });
+  int equal = 0;
+  for (int run = 0; run < 8; ++run) {
+    const Modes b = solve_modes(p.K, p.M, none, sparse(12));
+    equal += a.lambda == b.lambda && a.shapes == b.shapes;
+  }
+  done = true;
+  other.join();
+  EXPECT_EQ(equal, 8);
 }
 
 TEST(BlockLanczos, RestartsKeepTheRelation) {
