@@ -3,6 +3,8 @@
 // cantilever modes are less work than that. Run on one core; ratios are of one run.
 #include <benchmark/benchmark.h>
 
+#include "arm.hpp"
+#include "assembly/integration/implicit.hpp"
 #include "assembly/recursion/cost.hpp"
 #include "chain.hpp"
 
@@ -63,8 +65,28 @@ void composite(benchmark::State& state) {
                                                   benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
+// A swinging arm in steps of 1 ms: wall time over time simulated.
+void real_time(benchmark::State& state) {
+  const auto deformation = state.range(0) == 1 ? assembly::Deformation::full : assembly::Deformation::dropped;
+  const Multibody mb = bench::arm(50, deformation);
+  assembly::Dynamics dynamics = make_dynamics(mb);
+  assembly::ImplicitWork work = make_implicit_work(dynamics);
+  assembly::ImplicitState at{rest_state(mb), Eigen::VectorXd::Zero(mb.nv), Eigen::VectorXd::Zero(mb.nv)};
+  constexpr double h = 1e-3;
+  double t = 0.0;
+  long iterations = 0;
+  for (auto _ : state) {
+    generalized_alpha_step(dynamics, t, h, {}, work, at);
+    t += h;
+    iterations += work.iterations;
+  }
+  state.counters["of_real_time"] = benchmark::Counter(t, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  state.counters["iterations"] = static_cast<double>(iterations) / static_cast<double>(state.iterations());
+}
+
 }  // namespace
 
+BENCHMARK(real_time)->Arg(0)->Arg(1)->Iterations(1000)->Unit(benchmark::kMicrosecond);
 BENCHMARK(articulated)->ArgsProduct({{10, 100, 1000, 10000}, {0, 1, 5, 10}})->Unit(benchmark::kMicrosecond);
 BENCHMARK(inverse)->ArgsProduct({{10, 1000}, {0, 10}})->Unit(benchmark::kMicrosecond);
 BENCHMARK(composite)->ArgsProduct({{2, 10, 100}, {0, 1, 5, 10, 15}})->Unit(benchmark::kMicrosecond);
