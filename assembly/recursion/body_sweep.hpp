@@ -39,34 +39,34 @@ struct alignas(64) BodySweep {
   double rotor = 0.0;             ///< inertia on the one β of a hinge with one
   double inverse_D = 0.0;         ///< 1/D_R of a hinge with one degree of freedom
 
-  alignas(64) double P_a[8] = {};  ///< P_R a_mR, padded
-  RigidMotion X;                   ///< F_k seen from node t of the parent, in the parent's axes
-  Vec3 to_node = Vec3::Zero();     ///< node t from the parent's reference, parent's axes [m]
-  Vec6 V, a;                       ///< twist and a_mR, eqs (11), (25)
-  Vec6 alpha;                      ///< inertial rate of V
-  Columns H_F{nullptr, 6, 0};      ///< 6×n_r: H_F* = φ*(O_k, k) H*
-  Columns G_R{nullptr, 6, 0};      ///< 6×n_r
-  Vector b{nullptr, 0};            ///< n+6, eq (37), less the loads at ports
-  Matrix M{nullptr, 0, 0};         ///< (n+6)×(n+6) over (η, x_ref), eq (23); shared while constant
-  const ReducedBody* body = nullptr;
-  Vec3 own_node = Vec3::Zero();      ///< node d from the reference, undeformed
-  Mat3 inner_axes, outer_axes;       ///< of the hinge, see HingedBody
-  RigidMotion world;                 ///< F_k seen from the inertial frame
-  Vec6 alpha_bias;                   ///< alpha without χ̇ and gravity
-  Columns Pi_t{nullptr, 6, 0};       ///< 6×n_t: shapes of the parent at node t, its axes; shared while constant
-  Matrix Pi_tT{nullptr, 0, 6};       ///< padded×6: its transpose
-  Columns Pi_F{nullptr, 6, 0};       ///< 6×n: Π_F^d = φ*(d, k) Π^d; no columns when node d does not deform
-  Matrix L11{nullptr, 0, 0};         ///< padded×n: D_f = L11 L11ᵀ, strictly lower; the reciprocal diagonal apart
-  Vector inverse{nullptr, 0};        ///< n
-  PaddedColumns L21{nullptr, 8, 0};  ///< 8×n: P_rf, then μ L11⁻ᵀ, so that g μᵀ = L21 L21ᵀ
-  Vector z_f{nullptr, 0};            ///< padded; the articulated passes leave ε_f, then L11⁻¹ ε_f here
-  Vec6 z_r;                          ///< of inverse dynamics: what the hinge passes on
-  Matrix D_R{nullptr, 0, 0};         ///< n_r×n_r: its Cholesky factor, for more than one degree of freedom
-  Square P_rr{nullptr};              ///< composite bodies
-  Square P_plus{nullptr};            ///< P_R⁺ about F_k, left by articulate()
-  Matrix K_G{nullptr, 0, 0};         ///< n×n: geometric stiffening, empty without it
-  Vector port_wrenches{nullptr, 0};  ///< 6 per port, on the body, with K_G
-  Vector applied{nullptr, 0};        ///< of them, those of apply_wrench()
+  alignas(64) double P_a[8] = {};     ///< P_R a_mR, padded
+  RigidMotion X;                      ///< F_k seen from node t of the parent, in the parent's axes
+  Vec3 to_node = Vec3::Zero();        ///< node t from the parent's reference, parent's axes [m]
+  Vec6 V, a;                          ///< twist and a_mR, eqs (11), (25)
+  Vec6 alpha;                         ///< inertial rate of V
+  Columns H_F{nullptr, 6, 0};         ///< 6×n_r: H_F* = φ*(O_k, k) H*
+  Columns G_R{nullptr, 6, 0};         ///< 6×n_r
+  Vector b{nullptr, 0};               ///< n+6, eq (37), less the loads at ports
+  Matrix M{nullptr, 0, 0};            ///< (n+6)×(n+6) over (η, x_ref), eq (23); shared while constant
+  const ReducedBody* body = nullptr;  ///< of the system, which outlives its sweeps
+  Vec3 own_node = Vec3::Zero();       ///< node d from the reference, undeformed
+  Mat3 inner_axes, outer_axes;        ///< of the hinge, see HingedBody
+  RigidMotion world;                  ///< F_k seen from the inertial frame
+  Vec6 alpha_bias;                    ///< alpha without χ̇ and gravity
+  Columns Pi_t{nullptr, 6, 0};        ///< 6×n_t: shapes of the parent at node t, its axes; shared while constant
+  Matrix Pi_tT{nullptr, 0, 6};        ///< padded×6: its transpose
+  Columns Pi_F{nullptr, 6, 0};        ///< 6×n: Π_F^d = φ*(d, k) Π^d; no columns when node d does not deform
+  Matrix L11{nullptr, 0, 0};          ///< padded×n: D_f = L11 L11ᵀ, strictly lower; the reciprocal diagonal apart
+  Vector inverse{nullptr, 0};         ///< n
+  PaddedColumns L21{nullptr, 8, 0};   ///< 8×n: P_rf, then μ L11⁻ᵀ, so that g μᵀ = L21 L21ᵀ
+  Vector z_f{nullptr, 0};             ///< padded; the articulated passes leave ε_f, then L11⁻¹ ε_f here
+  Vec6 z_r;                           ///< of inverse dynamics: what the hinge passes on
+  Matrix D_R{nullptr, 0, 0};          ///< n_r×n_r: its Cholesky factor, for more than one degree of freedom
+  Square P_rr{nullptr};               ///< composite bodies
+  Square P_plus{nullptr};             ///< P_R⁺ about F_k, left by articulate()
+  Matrix K_G{nullptr, 0, 0};          ///< n×n: geometric stiffening, empty without it
+  Vector port_wrenches{nullptr, 0};   ///< 6 per port, on the body, with K_G
+  Vector applied{nullptr, 0};         ///< of them, those of apply_wrench()
 
   /// Calls f for each block that stands in the store.
   template <class Function>
