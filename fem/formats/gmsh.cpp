@@ -110,16 +110,24 @@ void read_sections(Cursor& cursor, Content& content) {
 }  // namespace
 }  // namespace gmsh
 
-Mesh parse_gmsh(std::string_view bytes, const std::string& source) {
-  if (bytes.empty()) throw InputError({source}, "the file is empty", "Save the mesh again");
-  gmsh::Cursor cursor(source, bytes);
-  gmsh::Content content(bytes.size());
+namespace {
+
+Mesh parse(gmsh::Cursor cursor) {
+  if (cursor.size() == 0) throw InputError({cursor.file()}, "the file is empty", "Save the mesh again");
+  gmsh::Content content(cursor.size());
   gmsh::read_sections(cursor, content);
-  if (content.points.empty()) cursor.fail(bytes.size(), "the file ends without any node, expected $Nodes");
-  if (content.cells.empty()) cursor.fail(bytes.size(), "the file ends without any element, expected $Elements");
-  return gmsh::make_mesh(std::move(content), source);
+  if (content.points.empty()) cursor.fail(cursor.size(), "the file ends without any node, expected $Nodes");
+  if (content.cells.empty()) cursor.fail(cursor.size(), "the file ends without any element, expected $Elements");
+  return gmsh::make_mesh(std::move(content), cursor.file());
 }
 
-Mesh read_gmsh(const std::filesystem::path& path) { return parse_gmsh(read_bytes(path), path.string()); }
+}  // namespace
+
+Mesh parse_gmsh(std::string_view bytes, const std::string& source) { return parse({source, bytes}); }
+
+Mesh read_gmsh(const std::filesystem::path& path) {
+  const MappedFile file(path);
+  return parse({path.string(), file.bytes(), &file});
+}
 
 }  // namespace tenon::fem

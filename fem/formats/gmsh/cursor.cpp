@@ -30,8 +30,13 @@ std::string quoted(std::string_view text) {
   return out + (text.size() > longest ? "...'" : "'");
 }
 
-Cursor::Cursor(std::string file, std::string_view bytes)
-    : file_(std::move(file)), begin_(bytes.data()), at_(bytes.data()), end_(bytes.data() + bytes.size()) {}
+Cursor::Cursor(std::string file, std::string_view bytes, const MappedFile* pages)
+    : file_(std::move(file)),
+      begin_(bytes.data()),
+      at_(bytes.data()),
+      end_(bytes.data() + bytes.size()),
+      pages_(pages),
+      handed_back_(bytes.data()) {}
 
 void Cursor::skip_white() {
   while (at_ != end_ && white(*at_)) ++at_;
@@ -111,6 +116,7 @@ void Cursor::fail_expected(const std::string& expected, const std::string& cure)
 }
 
 void TextFields::begin_record(std::int64_t i, std::int64_t n, const char* things) {
+  cursor_.hand_back();
   cursor_.skip_white();
   if (cursor_.remaining() == 0 || *cursor_.at() == '$')
     cursor_.fail_expected(fmt::format("{} {} of {}", things, i + 1, n));
@@ -158,6 +164,7 @@ double TextFields::real(const char* what) {
 }
 
 void BinaryFields::begin_record(std::int64_t i, std::int64_t n, const char* things) {
+  cursor_.hand_back();
   if (cursor_.remaining() == 0) cursor_.fail_expected(fmt::format("{} {} of {}", things, i + 1, n));
 }
 

@@ -4,13 +4,16 @@
 #include <string>
 #include <string_view>
 
+#include "fem/formats/file_bytes.hpp"
+
 /// Reading positions and numbers of Gmsh's files.
 namespace tenon::fem::gmsh {
 
 /// A place in a file's bytes, and what is known of how numbers are written there.
 class Cursor {
  public:
-  Cursor(std::string file, std::string_view bytes);
+  /// @param pages  what `bytes` are mapped from, if they are: pages that were read are handed back on the way
+  Cursor(std::string file, std::string_view bytes, const MappedFile* pages = nullptr);
 
   bool binary = false;       ///< numbers inside sections are raw bytes
   bool swapped = false;      ///< they have the other byte order
@@ -40,6 +43,13 @@ class Cursor {
   const char* at() const { return at_; }
   const char* end() const { return end_; }
   void move_to(const char* p) { at_ = p; }
+  /// Hands back the pages before the reading position, every 4 MiB.
+  void hand_back() {
+    if (pages_ && at_ - handed_back_ > 1 << 22) {
+      pages_->release(offset());
+      handed_back_ = at_;
+    }
+  }
 
   /// Throws InputError for the fault at `offset`: file:line:column in text files, the byte offset in binary ones.
   [[noreturn]] void fail(std::size_t offset, const std::string& what, const std::string& cure = {}) const;
@@ -49,6 +59,8 @@ class Cursor {
  private:
   std::string file_;
   const char *begin_, *at_, *end_;
+  const MappedFile* pages_;
+  const char* handed_back_;
 };
 
 /// Bytes from a file in quotes, unprintable ones escaped, shortened.

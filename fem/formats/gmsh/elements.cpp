@@ -33,6 +33,18 @@ void add_cell(Fields& fields, const ElementType& type, int nodes, std::int64_t n
   cells.groups.push_back(group);
 }
 
+/// Room for `declared` cells of a type, as far as the rest of the file can hold them: a number and a node take two
+/// bytes at least as text, four as raw bytes.
+void reserve(Cells& cells, std::int64_t declared, const Cursor& cursor) {
+  const auto nodes = static_cast<std::size_t>(node_count(cells.type));
+  const std::size_t possible = cursor.remaining() / ((nodes + 1) * (cursor.binary ? 4 : 2));
+  const std::size_t wanted = cells.ids.size() + std::min(static_cast<std::size_t>(declared), possible);
+  if (wanted < 2 * cells.ids.capacity()) return;  // blocks come one by one: grow by doubling at least
+  cells.nodes.reserve(nodes * wanted);
+  cells.ids.reserve(wanted);
+  cells.groups.reserve(wanted);
+}
+
 /// The group list of an element of a 2.x file: its first tag is the physical one (0: none), the second the entity's;
 /// partitions follow.
 class Tags {
@@ -93,6 +105,7 @@ void read_runs(std::int64_t n, Cursor& cursor, Content& content) {
     const int n_tags = fields.integer("the number of tags");
     tag_count(n_tags, fields.start(), cursor);
     Cells& cells = content.cells_of(type.type);
+    reserve(cells, run, cursor);
     for (int k = 0; k < run; ++k) {
       const std::int64_t number = fields.integer("the element's number");
       const int group = tags.read(fields, n_tags, type.type, content);
@@ -138,6 +151,7 @@ void read_blocks(Fields fields, Cursor& cursor, Content& content) {
     }
     Cells dropped;
     Cells& cells = group == no_body ? dropped : content.cells_of(type.type);
+    reserve(cells, n, cursor);
     for (std::int64_t i = 0; i < n; ++i) {
       fields.begin_record(i, n, "element");
       const std::int64_t number = fields.count("the element's number");
