@@ -43,7 +43,7 @@ struct NastranDeck {
 ///
 /// Mass. With PARAM,COUPMASS > 0 beams get BeamMass::nastran and shells their consistent mass. Without it Nastran
 /// lumps: elements then refer to copies of their material and section without mass, and PointMass elements carry it at
-/// the nodes (a bar half and half at its two ends, a shell ∫N_i ρt dA).
+/// the nodes (a bar half and half at its two ends, a shell ∫N_i ρt dA), one a node but for the ends of bars with offsets.
 ///
 /// Sections. I1 bends in plane 1 (x–y) and becomes Iz, I2 becomes Iy; a blank K1 or K2 means rigid in shear (kappa 0).
 /// PSHELL: blank MID2 gives bending_ratio 0; blank MID3 means rigid in shear, taken as shear_ratio 1000; MID2 and MID3

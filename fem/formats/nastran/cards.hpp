@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <deque>
 #include <filesystem>
 #include <optional>
@@ -8,25 +9,36 @@
 #include <vector>
 
 #include "fem/error.hpp"
+#include "fem/formats/file_bytes.hpp"
 
 /// The text level of Nastran bulk data: files, includes, lines, fields, numbers. Nothing here knows what a card means.
 namespace tenon::fem::nastran {
 
-/// One field of a card without the blanks around it, and where it stands.
+/// One field of a card without the blanks around it: bytes from the card's beginning.
 struct Field {
-  std::string_view text;
-  int file = 0;
-  int line = 0;
-  int column = 0;
+  std::uint32_t offset = 0;
+  std::uint32_t size = 0;
 };
 
-/// One card with all its continuations: data fields first_field .. first_field + field_count of Text::fields.
+/// One card with all its continuations. Most cards are one line of eight-column fields: those need no list of fields.
 struct CardSpan {
-  std::string name;  ///< upper case, without the large-field star
-  std::size_t first_field = 0;
-  std::size_t field_count = 0;
-  int file = 0;
-  int line = 0;
+  const char* begin = nullptr;  ///< its first line
+  std::size_t first_field = 0;  ///< of Text::fields; in columns: the length of the line
+  std::uint32_t field_count = 0;
+  std::uint32_t line = 0;
+  std::uint32_t file : 31 = 0;
+  std::uint32_t in_columns : 1 = 0;
+  std::uint32_t name = 0;  ///< of Text::names
+};
+
+/// A file of the deck, tabs expanded to the columns they stand for.
+struct SourceFile {
+  SourceFile(std::string as_named, const std::filesystem::path& path);
+  std::string_view text() const { return expanded.empty() ? pages.bytes() : std::string_view(expanded); }
+
+  std::string name;  ///< as in messages
+  MappedFile pages;
+  std::string expanded;  ///< the text when it has tabs
 };
 
 /// A line of case control, without comment, upper case but for titles.
@@ -37,8 +49,8 @@ struct CaseStatement {
 
 /// All cards of a deck and of the files it includes.
 struct Text {
-  std::vector<std::string> files;   ///< as named in messages
-  std::deque<std::string> storage;  ///< what the fields look into
+  std::deque<SourceFile> files;
+  std::vector<std::string> names;  ///< of cards, upper case, without the large-field star
   std::vector<Field> fields;
   std::vector<CardSpan> cards;
   std::vector<CaseStatement> case_control;
@@ -56,6 +68,7 @@ Text read_text(const std::filesystem::path& path);
 std::optional<double> parse_real(std::string_view text);
 std::optional<long> parse_integer(std::string_view text);
 
+constexpr bool white(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 std::string upper(std::string_view text);
 std::string_view trim(std::string_view text);
 
@@ -65,7 +78,7 @@ class Card {
  public:
   Card(const Text& text, const CardSpan& span) : text_(&text), span_(&span) {}
 
-  const std::string& name() const { return span_->name; }
+  const std::string& name() const { return text_->names[span_->name]; }
   int size() const { return static_cast<int>(span_->field_count); }
   bool blank(int field) const { return at(field).empty(); }
   /// The field's text, "" beyond the card's end.
@@ -84,7 +97,7 @@ class Card {
   /// Digits 1..6 as bits 0..5; a blank or 0 gives no bit.
   unsigned components(int field, const char* label) const;
 
-  Place place() const { return {text_->files[static_cast<std::size_t>(span_->file)], span_->line, 0}; }
+  Place place() const { return {text_->files[span_->file].name, static_cast<long>(span_->line), 0}; }
   Place place(int field) const;
   /// InputError at a field: "GRID field X1 is '1..0'" and what was expected.
   [[noreturn]] void fail(int field, const char* label, const std::string& expected) const;
@@ -95,6 +108,8 @@ class Card {
   bool same_as(const Card& other) const;
 
  private:
+  Field where(int field) const;
+
   const Text* text_;
   const CardSpan* span_;
 };

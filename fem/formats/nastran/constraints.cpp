@@ -65,9 +65,9 @@ int scalar_node(Draft& draft, const Card& card, long id) {
   if (const auto found = draft.scalar_node.find(id); found != draft.scalar_node.end()) return found->second;
   Vec3 place = Vec3::Zero();
   for (int k = 2; k <= card.size(); k = next_term(k)) {
-    const auto grid = draft.node_of.find(parse_integer(card.at(k)).value_or(0));
-    if (grid == draft.node_of.end()) continue;
-    place = draft.deck.model.nodes[static_cast<std::size_t>(grid->second)];
+    const int* const grid = draft.node_of.find(parse_integer(card.at(k)).value_or(0));
+    if (!grid) continue;
+    place = draft.deck.model.nodes[static_cast<std::size_t>(*grid)];
     break;
   }
   const int node = draft.make_node(place, id);

@@ -43,18 +43,13 @@ void LossReport::refuse_physical() const {
 bool Register::admit(long id, const Card& card, LossReport& losses) {
   const auto [position, added] = cards_.try_emplace(id, card);
   if (added) return true;
-  const Card& earlier = position->second;
+  const Card& earlier = *position;
   if (!earlier.same_as(card))
     card.refuse(
         1, fmt::format("{}: {} {} stands already at {}, with other values", id, kind_, id, to_string(earlier.place())),
         "Give it a number of its own or remove one of the two");
   losses.add(card.name(), "repeated, identical card");
   return false;
-}
-
-const Card* Register::find(long id) const {
-  const auto found = cards_.find(id);
-  return found == cards_.end() ? nullptr : &found->second;
 }
 
 namespace {
@@ -79,11 +74,11 @@ std::vector<Card> Draft::take(const std::string& name) {
 
 int Draft::node(const Card& card, int field, const char* label) const {
   const long id = card.id(field, label);
-  const auto found = node_of.find(id);
-  if (found == node_of.end())
+  const int* const found = node_of.find(id);
+  if (!found)
     card.refuse(field, fmt::format("field {} names GRID {}, which is not defined", label, id),
                 "Add the GRID card or correct the number");
-  return found->second;
+  return *found;
 }
 
 int Draft::make_node(const Vec3& position, long id) {
@@ -118,7 +113,7 @@ std::vector<int> Draft::nodes_in(const Range& range, const Card& card) const {
   std::vector<int> nodes;
   for (auto id = std::ranges::lower_bound(sorted_grids, range.first); id != sorted_grids.end() && *id <= range.last;
        ++id)
-    nodes.push_back(node_of.at(*id));
+    nodes.push_back(*node_of.find(*id));
   if (nodes.empty() && !scalars.any_in(range))
     card.refuse(0,
                 range.first == range.last

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <string>
@@ -33,6 +34,40 @@ class LossReport {
   std::map<std::pair<std::string, std::string>, std::size_t> index_;
 };
 
+/// Values by the file's numbers: 16 to 24 bytes each where the numbers come in rising order, as they mostly do.
+template <class Value>
+class NumberMap {
+ public:
+  void reserve(std::size_t n) { rising_.reserve(n); }
+  /// The value under that number, and whether it is new there.
+  std::pair<const Value*, bool> try_emplace(long number, const Value& value) {
+    if (const Value* const known = find(number)) return {known, false};
+    if (rising_.empty() || number > rising_.back().first) {
+      rising_.emplace_back(number, value);
+      return {&rising_.back().second, true};
+    }
+    return {&others_.try_emplace(number, value).first->second, true};
+  }
+  /// Nothing when there is no such number.
+  const Value* find(long number) const {
+    if (rising_.empty()) return nullptr;
+    if (number <= rising_.back().first) {
+      // numbers without gaps are found at once
+      const auto step = static_cast<std::size_t>(number - rising_.front().first);
+      if (number >= rising_.front().first && step < rising_.size() && rising_[step].first == number)
+        return &rising_[step].second;
+      const auto at = std::ranges::lower_bound(rising_, number, {}, &std::pair<long, Value>::first);
+      if (at != rising_.end() && at->first == number) return &at->second;
+    }
+    const auto other = others_.find(number);
+    return other == others_.end() ? nullptr : &other->second;
+  }
+
+ private:
+  std::vector<std::pair<long, Value>> rising_;
+  std::unordered_map<long, Value> others_;
+};
+
 /// Cards that carry an identification number, each number once. A second identical card is a loss, a different one an
 /// InputError that names both places.
 class Register {
@@ -40,11 +75,11 @@ class Register {
   explicit Register(std::string kind) : kind_(std::move(kind)) {}
   /// True when the number is new.
   bool admit(long id, const Card& card, LossReport& losses);
-  const Card* find(long id) const;
+  const Card* find(long id) const { return cards_.find(id); }
 
  private:
   std::string kind_;
-  std::unordered_map<long, Card> cards_;
+  NumberMap<Card> cards_;
 };
 
 /// Ids first .. last, as THRU and single numbers give them; never expanded, so a huge range costs nothing.
@@ -85,6 +120,20 @@ struct Frame {
   std::optional<Mat3> axes_at(const Vec3& position) const;
 };
 
+/// One matrix of axes a node; equal ones that follow each other are kept once.
+class NodeAxes {
+ public:
+  void push_back(const Mat3& axes) {
+    if (distinct_.empty() || distinct_.back() != axes) distinct_.push_back(axes);
+    index_.push_back(static_cast<int>(distinct_.size()) - 1);
+  }
+  const Mat3& operator[](std::size_t node) const { return distinct_[static_cast<std::size_t>(index_[node])]; }
+
+ private:
+  std::vector<Mat3> distinct_;
+  std::vector<int> index_;
+};
+
 struct Draft {
   std::map<std::string, std::vector<Card>> cards;  ///< by name, those still to be understood
   LossReport losses;
@@ -93,9 +142,9 @@ struct Draft {
   ScalarPoints scalars;
 
   std::unordered_map<long, Frame> frames;  ///< by CORD number, all but the basic one
-  std::unordered_map<long, int> node_of;   ///< GRID number → node
+  NumberMap<int> node_of;                  ///< GRID number → node
   std::vector<long> sorted_grids;          ///< for THRU
-  std::vector<Mat3> axes;                  ///< of the displacement frame CD, a node each
+  NodeAxes axes;                           ///< of the displacement frame CD, a node each
   std::vector<unsigned> permanent_spc;     ///< PS of GRID, a node each
   std::vector<bool> carries;               ///< an element or the independent end of a link attaches to the node
   std::vector<unsigned> governed;          ///< basic directions that a link makes dependent, a node each

@@ -189,6 +189,10 @@ void read_elements(Draft& draft) {
       card.refuse(0, "stands twice", "Keep one BAROR card");
     reader.bar_defaults = card;
   }
+  std::size_t count = draft.deck.model.elements.size();
+  for (const char* name : {"CBAR", "CQUAD4", "CTRIA3", "CONM2"})
+    if (const auto found = draft.cards.find(name); found != draft.cards.end()) count += found->second.size();
+  draft.deck.model.elements.reserve(count);
   for (const Card& card : draft.take("CBAR")) reader.bar(card);
   for (const Card& card : draft.take("CQUAD4")) reader.shell<Quad4>(card, 1);
   for (const Card& card : draft.take("CTRIA3")) reader.shell<Tria3>(card, 2);

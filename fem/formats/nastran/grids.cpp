@@ -62,14 +62,16 @@ Geometry::Geometry(Draft& draft) : draft_(draft) {
       add_system(card, 1, 2);
       if (!card.blank(5)) add_system(card, 5, 6);
     }
-  for (const Card& card : draft.take("GRID")) {
+  const std::vector<Card> grids = draft.take("GRID");
+  grids_.reserve(grids.size());
+  for (const Card& card : grids) {
     const long id = card.id(1, "ID");
     if (!known_grids_.admit(id, card, draft.losses)) continue;
-    draft.node_of.emplace(id, static_cast<int>(grids_.size()));
+    draft.node_of.try_emplace(id, static_cast<int>(grids_.size()));
     draft.sorted_grids.push_back(id);
     grids_.push_back({card, Vec3::Zero()});
   }
-  std::ranges::sort(draft.sorted_grids);
+  if (!std::ranges::is_sorted(draft.sorted_grids)) std::ranges::sort(draft.sorted_grids);
 }
 
 void Geometry::add_system(const Card& card, int field, int first_field) {
@@ -130,11 +132,11 @@ Frame Geometry::build(const System& system, int depth) {
 }
 
 const Vec3& Geometry::position(const Card& asker, int field, const char* label, int depth) {
-  const auto found = draft_.node_of.find(asker.id(field, label));
-  if (found == draft_.node_of.end())
+  const int* const found = draft_.node_of.find(asker.id(field, label));
+  if (!found)
     asker.refuse(field, fmt::format("field {} names GRID {}, which is not defined", label, asker.at(field)),
                  "Add the GRID card or correct the number");
-  return position(grids_[static_cast<std::size_t>(found->second)], depth);
+  return position(grids_[static_cast<std::size_t>(*found)], depth);
 }
 
 const Vec3& Geometry::position(Grid& grid, int depth) {

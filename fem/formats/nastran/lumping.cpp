@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -57,11 +58,15 @@ struct Lumper {
   Massless<Material> materials{model.materials, &Material::rho};
   Massless<BeamSection> beam_sections{model.beam_sections, &BeamSection::nsm};
   Massless<ShellSection> shell_sections{model.shell_sections, &ShellSection::nsm};
-  std::vector<Element> masses;
+  std::vector<Element> masses;                                                  ///< off their nodes
+  std::vector<double> at_nodes = std::vector<double>(model.nodes.size(), 0.0);  ///< of all elements together [kg]
 
   const Vec3& at(int node) const { return model.nodes[static_cast<std::size_t>(node)]; }
   void put(int node, double mass, const Vec3& offset, long id) {
-    if (mass != 0.0) masses.emplace_back(PointMass{node, mass, Mat3::Zero(), offset, id});
+    if (offset == Vec3::Zero())
+      at_nodes[static_cast<std::size_t>(node)] += mass;
+    else if (mass != 0.0)
+      masses.emplace_back(PointMass{node, mass, Mat3::Zero(), offset, id});
   }
 
   void operator()(Beam& beam) {
@@ -100,7 +105,13 @@ void lump_masses(Draft& draft) {
   Lumper lumper{.model = draft.deck.model, .masses = {}};
   auto& elements = draft.deck.model.elements;
   for (Element& element : elements) std::visit(lumper, element);
+  elements.reserve(elements.size() + lumper.masses.size() +
+                   static_cast<std::size_t>(std::ranges::count_if(lumper.at_nodes, [](double m) { return m != 0.0; })));
   elements.insert(elements.end(), lumper.masses.begin(), lumper.masses.end());
+  for (std::size_t n = 0; n < lumper.at_nodes.size(); ++n)
+    if (lumper.at_nodes[n] != 0.0)
+      elements.emplace_back(
+          PointMass{static_cast<int>(n), lumper.at_nodes[n], Mat3::Zero(), Vec3::Zero(), draft.deck.model.node_ids[n]});
 }
 
 }  // namespace tenon::fem::nastran

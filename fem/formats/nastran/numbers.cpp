@@ -21,10 +21,9 @@ bool sign(char c) { return c == '+' || c == '-'; }
 }  // namespace
 
 std::string_view trim(std::string_view text) {
-  constexpr std::string_view blanks = " \t\r\n\f\v";
-  const std::size_t first = text.find_first_not_of(blanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+  while (!text.empty() && white(text.front())) text.remove_prefix(1);
+  while (!text.empty() && white(text.back())) text.remove_suffix(1);
+  return text;
 }
 
 std::string upper(std::string_view text) {
@@ -46,8 +45,15 @@ std::optional<double> parse_real(std::string_view text) {
   }
   if (mantissa_digits == 0) return std::nullopt;
 
-  std::string normal(text.substr(text[0] == '+' ? 1 : 0, i - (text[0] == '+' ? 1 : 0)));
-  if (i < text.size()) {
+  const std::size_t first = text[0] == '+' ? 1 : 0;
+  double value = 0.0;
+  if (i == text.size()) {  // the common form is read in place
+    const auto [rest, error] = std::from_chars(text.data() + first, text.data() + i, value);
+    if (error != std::errc{} || rest != text.data() + i) return std::nullopt;
+    return value;
+  }
+  std::string normal(text.substr(first, i - first));
+  {
     const bool letter = text[i] == 'E' || text[i] == 'e' || text[i] == 'D' || text[i] == 'd';
     if (!letter && !sign(text[i])) return std::nullopt;
     if (letter) ++i;
@@ -60,7 +66,6 @@ std::optional<double> parse_real(std::string_view text) {
     if (end == i || end != text.size()) return std::nullopt;
     normal.append(text.substr(i));
   }
-  double value = 0.0;
   const auto [rest, error] = std::from_chars(normal.data(), normal.data() + normal.size(), value);
   if (error != std::errc{} || rest != normal.data() + normal.size()) return std::nullopt;
   return value;
@@ -74,15 +79,29 @@ std::optional<long> parse_integer(std::string_view text) {
   return value;
 }
 
+/// Of a field that the card has.
+Field Card::where(int field) const {
+  const auto f = static_cast<std::size_t>(field);
+  if (span_->in_columns == 0) return text_->fields[span_->first_field + f - 1];
+  return {static_cast<std::uint32_t>(8 * f),
+          static_cast<std::uint32_t>(std::min<std::size_t>(8, span_->first_field - 8 * f))};
+}
+
 std::string_view Card::at(int field) const {
   if (field < 1 || field > size()) return {};
-  return text_->fields[span_->first_field + static_cast<std::size_t>(field) - 1].text;
+  const Field f = where(field);
+  return trim({span_->begin + f.offset, f.size});
 }
 
 Place Card::place(int field) const {
   if (field < 1 || field > size()) return place();
-  const Field& f = text_->fields[span_->first_field + static_cast<std::size_t>(field) - 1];
-  return {text_->files[static_cast<std::size_t>(f.file)], f.line, f.column};
+  const SourceFile& file = text_->files[span_->file];
+  const Field f = where(field);
+  const std::string_view before(span_->begin, f.offset);
+  const std::size_t line_start = before.rfind('\n');  // a card begins with its line
+  const std::size_t column = line_start == std::string_view::npos ? f.offset : f.offset - line_start - 1;
+  return {file.name, static_cast<long>(span_->line + std::count(before.begin(), before.end(), '\n')),
+          static_cast<long>(column) + 1};
 }
 
 void Card::fail(int field, const char* label, const std::string& expected) const {

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cctype>
+#include <limits>
+#include <map>
 #include <set>
 
-#include "fem/formats/file_bytes.hpp"
 #include "fem/formats/nastran/cards.hpp"
 
 namespace tenon::fem::nastran {
@@ -14,8 +15,12 @@ namespace fs = std::filesystem;
 
 constexpr int columns_of_name = 8, columns_of_line = 80;
 
+/// `word` is upper case.
 bool starts_with_word(std::string_view line, std::string_view word) {
-  if (line.size() < word.size() || upper(line.substr(0, word.size())) != word) return false;
+  const auto same = [](char a, char b) { return (a >= 'a' && a <= 'z' ? a - 'a' + 'A' : a) == b; };
+  if (line.size() < word.size() ||
+      !std::equal(word.begin(), word.end(), line.begin(), [&](char b, char a) { return same(a, b); }))
+    return false;
   return line.size() == word.size() || !std::isalnum(static_cast<unsigned char>(line[word.size()]));
 }
 
@@ -31,13 +36,16 @@ bool is_begin(std::string_view line, std::string* rest = nullptr) {
 
 std::string_view without_comment(std::string_view line) { return line.substr(0, line.find('$')); }
 
-std::string with_tabs_expanded(std::string_view line) {
+std::string with_tabs_expanded(std::string_view text) {
   std::string wide;
-  for (const char c : line) {
+  wide.reserve(text.size());
+  std::size_t line_start = 0;
+  for (const char c : text) {
     if (c == '\t')
-      wide.append(columns_of_name - wide.size() % columns_of_name, ' ');
+      wide.append(columns_of_name - (wide.size() - line_start) % columns_of_name, ' ');
     else
       wide += c;
+    if (c == '\n') line_start = wide.size();
   }
   return wide;
 }
@@ -49,9 +57,12 @@ std::string_view mark_name(std::string_view mark) {
 }
 
 /// Refuses what is no text: control characters other than white space.
-void require_text(const std::string& content, const std::string& file) {
-  const auto bad = std::ranges::find_if(content, [](unsigned char c) { return c < 32 && !std::isspace(c) && c != 26; });
-  if (bad == content.end()) return;
+void require_text(std::string_view content, const std::string& file) {
+  const auto odd = [](char c) { return c >= 0 && c < 32 && !(c >= '\t' && c <= '\r') && c != 26; };
+  bool any = false;  // all bytes in one go: this loop has no branch
+  for (const char c : content) any |= odd(c);
+  if (!any) return;
+  const auto bad = std::ranges::find_if(content, odd);
   const long line = 1 + std::count(content.begin(), bad, '\n');
   throw InputError({file, line, 0},
                    fmt::format("found the byte {:#04x}, expected text: this is not a Nastran bulk data file",
@@ -98,18 +109,25 @@ class Reader {
   void free_fields(std::string_view line);
   void fixed_fields(std::string_view line);
   void begin_line(std::string_view name, std::string_view mark, int column);
-  void add(std::string_view text, int column) { text_.fields.push_back({trim(text), file_, line_, column}); }
+  void add(std::string_view text, std::size_t column);
   void close_card();
-  Place here(int column = 0) const { return {text_.files[static_cast<std::size_t>(file_)], line_, column}; }
+  std::uint32_t name_index(std::string_view name);
+  const SourceFile& source() const { return text_.files[file_]; }
+  Place here(int column = 0) const { return {source().name, line_, column}; }
 
   Text text_;
+  std::map<std::string, std::uint32_t> name_index_;
   Section section_ = Section::bulk;
   fs::path deck_folder_;
   std::vector<fs::path> open_files_;
   std::set<fs::path> seen_files_;
-  int file_ = 0, line_ = 0;
+  std::size_t file_ = 0;
+  int line_ = 0;
+  const char* line_begin_ = nullptr;
+  std::vector<std::string_view> parts_;  ///< of a line in free fields
   bool card_open_ = false;
-  std::string mark_;  ///< continuation mark that the open card's last line ended with
+  std::size_t columns_ = 0;  ///< length of the open card's line when its fields stand in columns
+  std::string mark_;         ///< continuation mark that the open card's last line ended with
   bool large_ = false;
 };
 
@@ -124,12 +142,13 @@ void Reader::file(const fs::path& path, const Place& asked_at) {
   if (std::error_code error; !open_files_.empty() && !fs::is_regular_file(path, error))
     throw InputError(asked_at, "the included file '" + path.string() + "' does not exist or is no file",
                      "Check the name; it is relative to the including file, else to the deck");
-  const std::string& content = text_.storage.emplace_back(read_bytes(path));
-  const int outer_file = file_, outer_line = line_;
-  file_ = static_cast<int>(text_.files.size());
-  text_.files.push_back(path.string());
-  require_text(content, path.string());
+  const SourceFile& source = text_.files.emplace_back(path.string(), path);
+  const std::string_view content = source.text();
+  const std::size_t outer_file = file_;
+  const int outer_line = line_;
+  file_ = text_.files.size() - 1;
   const bool top = open_files_.empty();
+  if (top) text_.cards.reserve(content.size() / 50);  // what is not used costs nothing
   open_files_.push_back(canonical);
 
   if (top) {  // which sections does the deck have?
@@ -145,9 +164,12 @@ void Reader::file(const fs::path& path, const Place& asked_at) {
   }
 
   std::string_view line;
+  std::size_t handed_back = 0;
   for (Lines lines{content}; section_ != Section::done && lines.next(line);) {
     line_ = lines.number;
-    text_.end = here();
+    line_begin_ = line.data();
+    const auto read = static_cast<std::size_t>(line.data() - content.data());
+    if (read > handed_back + (1 << 22) && source.expanded.empty()) source.pages.release(handed_back = read);
     const std::string_view statement = trim(line);
     if (statement.empty() || statement.front() == '$') continue;
     if (section_ == Section::executive) {
@@ -158,6 +180,7 @@ void Reader::file(const fs::path& path, const Place& asked_at) {
       bulk_line(line, lines);
     }
   }
+  text_.end = here();
   open_files_.pop_back();
   file_ = outer_file;
   line_ = outer_line;
@@ -232,21 +255,17 @@ void Reader::bulk_line(std::string_view line, Lines& lines) {
     return;
   }
   line = without_comment(line);
-  while (!line.empty() && std::isspace(static_cast<unsigned char>(line.back()))) line.remove_suffix(1);
+  while (!line.empty() && white(line.back())) line.remove_suffix(1);
   if (line.empty()) return;
-  if (line.find(',') != std::string_view::npos)
-    free_fields(line);
-  else if (line.find('\t') != std::string_view::npos)
-    fixed_fields(text_.storage.emplace_back(with_tabs_expanded(line)));
-  else
-    fixed_fields(line);
+  line.find(',') != std::string_view::npos ? free_fields(line) : fixed_fields(line);
 }
 
 void Reader::free_fields(std::string_view line) {
   const auto column = [&, start = line.data()](std::string_view part) {
     return static_cast<int>(part.data() - start) + 1;
   };
-  std::vector<std::string_view> parts;
+  std::vector<std::string_view>& parts = parts_;
+  parts.clear();
   for (std::string_view rest = line;;) {
     const std::size_t comma = rest.find(',');
     parts.push_back(trim(rest.substr(0, comma)));
@@ -267,9 +286,9 @@ void Reader::free_fields(std::string_view line) {
   begin_line(name, parts.size() > data + 1 ? parts[data + 1] : std::string_view{}, column(name));
   for (std::size_t i = 1; i <= data; ++i) {
     if (i < parts.size())
-      add(parts[i], column(parts[i]));
+      add(parts[i], static_cast<std::size_t>(column(parts[i])));
     else
-      add({}, static_cast<int>(line.size()));
+      add({}, line.size());
   }
 }
 
@@ -283,7 +302,9 @@ void Reader::fixed_fields(std::string_view line) {
   const bool large = !name.empty() && (name.back() == '*' || name.front() == '*');
   const int width = large ? 16 : 8;
   begin_line(name, trim(part(columns_of_line - 8, 8)), 1);
-  for (int from = columns_of_name; from < columns_of_line - 8; from += width) add(part(from, width), from + 1);
+  for (int from = columns_of_name; from < columns_of_line - 8; from += width)
+    add(part(from, width), static_cast<std::size_t>(from) + 1);
+  columns_ = !large && line_begin_ == text_.cards.back().begin ? line.size() : 0;
 }
 
 // Opens a card, or goes on with the open one when the name is blank or a continuation mark.
@@ -302,29 +323,62 @@ void Reader::begin_line(std::string_view name, std::string_view mark, int column
     CardSpan& card = text_.cards.back();
     // a line of four large fields is half a line of eight: its other half comes only as another large line
     const std::size_t filled = text_.fields.size() - card.first_field;
-    if (filled % 8 != 0 && !(large && large_)) add({}, column), add({}, column), add({}, column), add({}, column);
+    if (filled % 8 != 0 && !(large && large_))
+      for (int i = 0; i < 4; ++i) add({}, static_cast<std::size_t>(column));
   } else {
     close_card();
     if (name.front() == '=' || std::isdigit(static_cast<unsigned char>(name.front())))
       throw InputError(here(column), fmt::format("found '{}' where a card's name was expected", name),
                        "Replication ('=') is not read; write every card out, its name in column 1");
-    std::string plain = upper(large ? trim(name.substr(0, name.size() - 1)) : name);
-    text_.cards.push_back({std::move(plain), text_.fields.size(), 0, file_, line_});
+    const std::uint32_t named = name_index(large ? trim(name.substr(0, name.size() - 1)) : name);
+    text_.cards.push_back({.begin = line_begin_,
+                           .first_field = text_.fields.size(),
+                           .line = static_cast<std::uint32_t>(line_),
+                           .file = static_cast<std::uint32_t>(file_) & 0x7fffffffU,
+                           .name = named});
     card_open_ = true;
   }
+  columns_ = 0;
   large_ = large;
   mark_ = std::string(mark);
+}
+
+// `column` counts from 1 in this line; blanks behind the text are left away
+void Reader::add(std::string_view text, std::size_t column) {
+  while (!text.empty() && white(text.back())) text.remove_suffix(1);
+  const std::size_t offset = static_cast<std::size_t>(line_begin_ - text_.cards.back().begin) + column - 1;
+  if (offset + text.size() > std::numeric_limits<std::uint32_t>::max())
+    throw InputError(here(static_cast<int>(column)), "the card is longer than 4 GiB", "Split it");
+  text_.fields.push_back({static_cast<std::uint32_t>(offset), static_cast<std::uint32_t>(text.size())});
+}
+
+std::uint32_t Reader::name_index(std::string_view name) {
+  if (!text_.cards.empty() && text_.names[text_.cards.back().name] == name) return text_.cards.back().name;
+  const auto [entry, added] = name_index_.try_emplace(upper(name), static_cast<std::uint32_t>(text_.names.size()));
+  if (added) text_.names.push_back(entry->first);
+  return entry->second;
 }
 
 void Reader::close_card() {
   if (!card_open_) return;
   CardSpan& card = text_.cards.back();
-  while (text_.fields.size() > card.first_field && text_.fields.back().text.empty()) text_.fields.pop_back();
-  card.field_count = text_.fields.size() - card.first_field;
+  while (text_.fields.size() > card.first_field && text_.fields.back().size == 0) text_.fields.pop_back();
+  card.field_count = static_cast<std::uint32_t>(text_.fields.size() - card.first_field);
+  if (columns_ > 0) {
+    text_.fields.resize(card.first_field);
+    card.first_field = columns_;
+    card.in_columns = 1;
+  }
   card_open_ = false;
 }
 
 }  // namespace
+
+SourceFile::SourceFile(std::string as_named, const fs::path& path) : name(std::move(as_named)), pages(path) {
+  require_text(pages.bytes(), name);
+  if (pages.bytes().find('\t') != std::string_view::npos) expanded = with_tabs_expanded(pages.bytes());
+  pages.release(pages.bytes().size());
+}
 
 Text read_text(const fs::path& path) { return Reader{}.read(path); }
 

@@ -1,0 +1,77 @@
+// Element matrices, and assembly on two threads against one: ratios in one run.
+#include <benchmark/benchmark.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <vector>
+
+#include "fem/elements/beam.hpp"
+#include "fem/elements/shell.hpp"
+#include "fem/structure.hpp"
+#include "tests/benchmarks/plate.hpp"
+
+using namespace tenon;
+
+namespace {
+
+const fem::Material aluminium{.name = "aluminium", .E = 7e10, .G = 2.7e10, .nu = 0.3, .rho = 2700.0};
+
+void beam(benchmark::State& state) {
+  const fem::BeamSection section{
+      .name = "bar", .A = 1e-4, .Iy = 1e-9, .Iz = 2e-9, .J = 2e-9, .kappa_y = 0.8, .kappa_z = 0.8};
+  const std::array<fem::Vec3, 2> nodes{fem::Vec3(0.0, 0.0, 0.0), fem::Vec3(0.3, 0.2, 0.1)};
+  const fem::Beam element{.nodes = {0, 1}};
+  fem::ElementMatrices out;
+  for (auto _ : state) {
+    fem::beam_matrices(element, section, aluminium, nodes, out);
+    benchmark::DoNotOptimize(out.K.data());
+  }
+}
+
+const fem::ShellSection skin{.name = "skin", .thickness = 1e-3};
+const std::array<fem::Vec3, 4> corners{fem::Vec3(0.0, 0.0, 0.0), fem::Vec3(0.1, 0.01, 0.0), fem::Vec3(0.11, 0.1, 0.01),
+                                       fem::Vec3(0.0, 0.09, 0.0)};
+
+void quad(benchmark::State& state) {
+  fem::ElementMatrices out;
+  for (auto _ : state) {
+    fem::quad4_matrices({.nodes = {0, 1, 2, 3}}, skin, aluminium, corners, out);
+    benchmark::DoNotOptimize(out.K.data());
+  }
+}
+
+void triangle(benchmark::State& state) {
+  fem::ElementMatrices out;
+  for (auto _ : state) {
+    fem::tria3_matrices({.nodes = {0, 1, 2}}, skin, aluminium, corners, out);
+    benchmark::DoNotOptimize(out.K.data());
+  }
+}
+
+/// How many times faster two threads assemble than one: the median of turns taken one after the other.
+void assemble_on_two_threads(benchmark::State& state) {
+  const fem::Model model = benchmarks::plate_model({.n = 200, .clamped = true, .tilted = state.range(0) != 0});
+  const auto seconds = [&](int threads) {
+    omp_set_num_threads(threads);
+    const auto start = std::chrono::steady_clock::now();
+    benchmark::DoNotOptimize(fem::assemble(model).K.nonZeros());
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
+  std::vector<double> gains;
+  for (auto _ : state) {
+    const double one = seconds(1);
+    gains.push_back(one / seconds(2));
+  }
+  std::sort(gains.begin(), gains.end());
+  state.counters["gain"] = gains[gains.size() / 2];
+}
+
+}  // namespace
+
+BENCHMARK(beam);
+BENCHMARK(quad);
+BENCHMARK(triangle);
+BENCHMARK(assemble_on_two_threads)->ArgName("tilted")->Arg(0)->Arg(1)->Unit(benchmark::kSecond)->Iterations(5);
+BENCHMARK_MAIN();
