@@ -1,8 +1,8 @@
 #include <fmt/format.h>
+#include <omp.h>
 
 #include <algorithm>
 #include <exception>
-#include <numeric>
 #include <optional>
 
 #include "fem/constraints.hpp"
@@ -90,88 +90,76 @@ ElementDofs free_dofs(const Model& model, const DofMap& map) {
   return elements;
 }
 
-/// Adds T_eᵀ A_e T_e of one element after the other; its scratch lives as long as the assembly. What the pattern has no
-/// place for goes into `beside`.
-class Scatter {
- public:
-  Scatter(const DofMap& map, LowerTriangle& A, std::vector<Eigen::Triplet<double>>& beside)
-      : map_(map), A_(A), beside_(beside) {}
-
-  void add(const FullDofs& dofs, std::span<const int> free, const ElementMatrices::Matrix& A) {
-    const auto n = static_cast<Eigen::Index>(free.size());
-    if (n == 0) return;
-    if (plain(dofs)) {
-      for (int i = 0; i < dofs.size; ++i) local_[static_cast<std::size_t>(i)] = term(dofs, i).free;
-      add_plain(dofs.size, A);
-      return;
-    }
-    T_.setZero(dofs.size, n);
-    for (int i = 0; i < dofs.size; ++i) {
-      const auto f = static_cast<std::size_t>(dofs.dof[static_cast<std::size_t>(i)]);
-      for (int t = map_.start[f]; t < map_.start[f + 1]; ++t) {
-        const DofMap::Term& s = map_.terms[static_cast<std::size_t>(t)];
-        T_(i, std::lower_bound(free.begin(), free.end(), s.free) - free.begin()) += s.coefficient;
-      }
-    }
-    AT_.noalias() = A * T_;
-    TAT_.noalias() = T_.transpose() * AT_;
-    for (Eigen::Index b = 0; b < n; ++b) {
-      int at = 0;
-      for (Eigen::Index a = b; a < n; ++a)
-        put(free[static_cast<std::size_t>(a)], free[static_cast<std::size_t>(b)], TAT_(a, b), at);
-    }
-  }
-
- private:
-  const DofMap::Term& term(const FullDofs& dofs, int i) const {
-    return map_
-        .terms[static_cast<std::size_t>(map_.start[static_cast<std::size_t>(dofs.dof[static_cast<std::size_t>(i)])])];
-  }
-
-  /// Every dof is itself free.
-  bool plain(const FullDofs& dofs) const {
-    for (int i = 0; i < dofs.size; ++i) {
-      const auto f = static_cast<std::size_t>(dofs.dof[static_cast<std::size_t>(i)]);
-      if (map_.start[f + 1] - map_.start[f] != 1 || term(dofs, i).coefficient != 1.0) return false;
-    }
-    return true;
-  }
-
-  /// A_ij += value; rows of a column come in ascending order, `from` remembers where the last one lay.
-  void put(int i, int j, double value, int& from) {
-    if (value == 0.0) return;
-    const int at = A_.position(i, j, from);
-    if (at < 0) {
-      beside_.emplace_back(i, j, value);
-      return;
-    }
-    A_.value[static_cast<std::size_t>(at)] += value;
-    from = at;
-  }
-
-  void add_plain(int n, const ElementMatrices::Matrix& A) {
-    std::array<int, ElementMatrices::max_dofs> order{};
-    std::iota(order.begin(), order.begin() + n, 0);
-    std::sort(order.begin(), order.begin() + n, [this](int a, int b) {
-      return local_[static_cast<std::size_t>(a)] < local_[static_cast<std::size_t>(b)];
-    });
-    for (int b = 0; b < n; ++b) {
-      const int local_j = order[static_cast<std::size_t>(b)];
-      int at = 0;
-      for (int a = b; a < n; ++a) {
-        const int local_i = order[static_cast<std::size_t>(a)];
-        put(local_[static_cast<std::size_t>(local_i)], local_[static_cast<std::size_t>(local_j)], A(local_i, local_j),
-            at);
-      }
-    }
-  }
-
-  const DofMap& map_;
-  LowerTriangle& A_;
-  std::vector<Eigen::Triplet<double>>& beside_;
-  std::array<int, ElementMatrices::max_dofs> local_{};
-  Eigen::MatrixXd T_, AT_, TAT_;
+/// T_eᵀ A_e T_e of an element over its free dofs, these in rising order.
+struct Contribution {
+  Eigen::MatrixXd A;
+  Eigen::MatrixXd T, AT;  ///< scratch
 };
+
+const DofMap::Term& only_term(const DofMap& map, int dof) {
+  return map.terms[static_cast<std::size_t>(map.start[static_cast<std::size_t>(dof)])];
+}
+
+/// Every dof is itself free.
+bool plain(const DofMap& map, const FullDofs& dofs) {
+  for (int i = 0; i < dofs.size; ++i) {
+    const int dof = dofs.dof[static_cast<std::size_t>(i)];
+    const auto f = static_cast<std::size_t>(dof);
+    if (map.start[f + 1] - map.start[f] != 1 || only_term(map, dof).coefficient != 1.0) return false;
+  }
+  return true;
+}
+
+void transform(const DofMap& map, const FullDofs& dofs, std::span<const int> free, const ElementMatrices::Matrix& A,
+               Contribution& out) {
+  const auto place = [&](int dof) { return std::lower_bound(free.begin(), free.end(), dof) - free.begin(); };
+  const auto n = static_cast<Eigen::Index>(free.size());
+  if (plain(map, dofs)) {
+    std::array<Eigen::Index, ElementMatrices::max_dofs> to{};
+    for (int i = 0; i < dofs.size; ++i)
+      to[static_cast<std::size_t>(i)] = place(only_term(map, dofs.dof[static_cast<std::size_t>(i)]).free);
+    out.A.setZero(n, n);
+    for (int j = 0; j < dofs.size; ++j)
+      for (int i = 0; i < dofs.size; ++i)
+        out.A(to[static_cast<std::size_t>(i)], to[static_cast<std::size_t>(j)]) += A(i, j);
+    return;
+  }
+  out.T.setZero(dofs.size, n);
+  for (int i = 0; i < dofs.size; ++i) {
+    const auto f = static_cast<std::size_t>(dofs.dof[static_cast<std::size_t>(i)]);
+    for (int t = map.start[f]; t < map.start[f + 1]; ++t) {
+      const DofMap::Term& s = map.terms[static_cast<std::size_t>(t)];
+      out.T(i, place(s.free)) += s.coefficient;
+    }
+  }
+  out.AT.noalias() = A * out.T;
+  out.A.noalias() = out.T.transpose() * out.AT;
+}
+
+/// What the pattern of a growing matrix has no place for.
+using Beside = std::vector<Eigen::Triplet<double>>;
+
+/// A += contribution, lower triangle, in the columns that `owned` chooses.
+template <class Owned>
+void scatter(const Contribution& contribution, std::span<const int> free, LowerTriangle& A, Beside& beside,
+             Owned owned) {
+  for (std::size_t b = 0; b < free.size(); ++b) {
+    const int j = free[b];
+    if (!owned(j)) continue;
+    int at = 0;  // rows come in rising order
+    for (std::size_t a = b; a < free.size(); ++a) {
+      const double value = contribution.A(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b));
+      if (value == 0.0) continue;
+      const int found = A.position(free[a], j, at);
+      if (found < 0) {
+        beside.emplace_back(free[a], j, value);
+        continue;
+      }
+      A.value[static_cast<std::size_t>(found)] += value;
+      at = found;
+    }
+  }
+}
 
 [[noreturn]] void rethrow(const std::exception_ptr& fault, const std::string& source) {
   try {
@@ -182,32 +170,49 @@ class Scatter {
   }
 }
 
-/// Element matrices are computed side by side in chunks and added in the order of the elements: the sums do not depend
-/// on the number of threads.
-void add_elements(const Model& model, const ElementDofs& elements, ElementMatrices::Matrix ElementMatrices::*part,
-                  Scatter scatter) {
-  constexpr std::size_t chunk = 256;
-  std::vector<ElementMatrices> matrices(std::min(chunk, model.elements.size()));
-  for (std::size_t first = 0; first < model.elements.size(); first += chunk) {
-    const std::size_t count = std::min(chunk, model.elements.size() - first);
-    std::vector<std::exception_ptr> faults(1);
-    std::size_t faulty = count;
-#pragma omp parallel for schedule(static)
-    for (std::size_t i = 0; i < count; ++i) {
-      try {
-        element_matrices(model, model.elements[first + i], matrices[i]);
-      } catch (...) {
+/// Elements are computed side by side in chunks; then each thread adds them all, in their order, to columns of its own:
+/// the sums do not depend on the number of threads.
+void add_elements(const Model& model, const DofMap& map, const ElementDofs& elements,
+                  ElementMatrices::Matrix ElementMatrices::*part, LowerTriangle& A, Beside& beside) {
+  constexpr std::size_t chunk = 512;
+  constexpr int strip = 64;  // columns that go to one thread together
+  const std::size_t total = model.elements.size();
+  std::vector<Contribution> contributions(std::min(chunk, total));
+  std::exception_ptr fault;
+  std::size_t faulty = total;
+#pragma omp parallel
+  {
+    const int thread = omp_get_thread_num(), threads = omp_get_num_threads();
+    ElementMatrices matrices;
+    Beside mine;
+    for (std::size_t first = 0; first < total; first += chunk) {
+      const std::size_t count = std::min(chunk, total - first);
+#pragma omp for schedule(static)
+      for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t e = first + i;
+        try {
+          element_matrices(model, model.elements[e], matrices);
+          transform(map, full_dofs(model.elements[e]), elements.of(e), matrices.*part, contributions[i]);
+        } catch (...) {
 #pragma omp critical(tenon_element_fault)
-        if (i < faulty) {
-          faulty = i;
-          faults.front() = std::current_exception();
+          if (e < faulty) {
+            faulty = e;
+            fault = std::current_exception();
+          }
         }
       }
+      const bool failed = fault != nullptr;  // the same for all: nobody writes it between the two barriers
+      if (!failed)
+        for (std::size_t i = 0; i < count; ++i)
+          scatter(contributions[i], elements.of(first + i), A, mine,
+                  [=](int j) { return threads == 1 || (j / strip) % threads == thread; });
+#pragma omp barrier
+      if (failed) break;
     }
-    if (faults.front()) rethrow(faults.front(), model.source);
-    for (std::size_t i = 0; i < count; ++i)
-      scatter.add(full_dofs(model.elements[first + i]), elements.of(first + i), matrices[i].*part);
+#pragma omp critical(tenon_beside)
+    beside.insert(beside.end(), mine.begin(), mine.end());
   }
+  if (fault) rethrow(fault, model.source);
 }
 
 /// Rows that got neither stiffness nor mass are taken out (a port's rows stay, so that reduction can say what is
@@ -270,10 +275,10 @@ Structure assemble(const Model& model) {
   Structure s;
   s.dofs = eliminate_constraints(model, used_dofs(model));
   const ElementDofs elements = free_dofs(model, s.dofs);
-  std::vector<Eigen::Triplet<double>> beside;
+  Beside beside;
   {
     LowerTriangle K = lower_zeros(elements, s.dofs.n_free());
-    add_elements(model, elements, &ElementMatrices::K, Scatter(s.dofs, K, beside));
+    add_elements(model, s.dofs, elements, &ElementMatrices::K, K, beside);
     s.K = without_zeros(std::move(K));
   }
   // Mass acts, but for offset points, where stiffness does: it grows in the entries that K has kept. The elements are
@@ -282,7 +287,7 @@ Structure assemble(const Model& model) {
   M.start.assign(s.K.outerIndexPtr(), s.K.outerIndexPtr() + s.K.cols() + 1);
   M.row.assign(s.K.innerIndexPtr(), s.K.innerIndexPtr() + s.K.nonZeros());
   M.value.assign(M.row.size(), 0.0);
-  add_elements(model, elements, &ElementMatrices::M, Scatter(s.dofs, M, beside));
+  add_elements(model, s.dofs, elements, &ElementMatrices::M, M, beside);
   s.M = without_zeros(std::move(M));
   if (!beside.empty()) {
     SparseMatrix rest(s.K.rows(), s.K.cols());

@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <omp.h>
+
 #include <Eigen/Eigenvalues>
 #include <random>
 
@@ -38,6 +40,52 @@ Model random_frame(unsigned seed) {
 Eigen::MatrixXd dense(const SparseMatrix& lower) { return Eigen::MatrixXd(lower).selfadjointView<Eigen::Lower>(); }
 
 }  // namespace
+
+namespace {
+
+/// A wavy sheet of n×n quads, more than one chunk of elements, with links and masses off their nodes.
+Model linked_sheet(int n) {
+  Model model;
+  model.source = "sheet";
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= n; ++i) {
+      model.nodes.emplace_back(0.1 * i, 0.11 * j, 0.02 * std::sin(0.7 * i + 0.3 * j));
+      model.node_ids.push_back(static_cast<long>(model.node_ids.size()) + 1);
+    }
+  model.materials.push_back({"steel", 2.1e11, 8.0e10, 0.3, 7800.0});
+  model.shell_sections.push_back({.name = "skin", .thickness = 2e-3});
+  const auto node = [n](int i, int j) { return j * (n + 1) + i; };
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i)
+      model.elements.emplace_back(Quad4{{node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)}, 0, 0, i});
+  for (int i = 0; i <= n; i += 3)
+    model.elements.emplace_back(PointMass{node(i, n), 0.3, Mat3::Identity(), Vec3(0.0, 0.1, 0.05), i});
+  model.rigid_links.push_back({node(0, 0), {node(1, 0), node(2, 0), node(3, 0)}, all_six, Mat3::Identity(), 1});
+  model.average_links.push_back(
+      {node(n, n), all_six, {{node(0, 5), 1.0, 0b111}, {node(5, 0), 1.0, 0b111}, {node(9, 9), 2.0, 0b111}}, 2});
+  return model;
+}
+
+bool same_digits(const SparseMatrix& a, const SparseMatrix& b) {
+  return a.nonZeros() == b.nonZeros() && std::equal(a.valuePtr(), a.valuePtr() + a.nonZeros(), b.valuePtr()) &&
+         std::equal(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros(), b.innerIndexPtr());
+}
+
+}  // namespace
+
+TEST(Assemble, DigitsDoNotDependOnTheNumberOfThreads) {
+  const Model model = linked_sheet(35);
+  const int before = omp_get_max_threads();
+  omp_set_num_threads(1);
+  const Structure one = assemble(model);
+  for (const int threads : {2, 3, 5}) {
+    omp_set_num_threads(threads);
+    const Structure many = assemble(model);
+    EXPECT_TRUE(same_digits(one.K, many.K)) << threads;
+    EXPECT_TRUE(same_digits(one.M, many.M)) << threads;
+  }
+  omp_set_num_threads(before);
+}
 
 TEST(Assemble, EqualsTheDenseSumOverElements) {
   const Model model = random_frame(1);
