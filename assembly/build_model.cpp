@@ -6,7 +6,7 @@
 #include "assembly/build_beam.hpp"
 #include "assembly/scene/mesh_nodes.hpp"
 #include "assembly/scene/mesh_sections.hpp"
-#include "fem/formats/nastran.hpp"
+#include "fem/formats/deck.hpp"
 #include "fem/formats/read_mesh.hpp"
 
 namespace tenon::assembly {
@@ -81,7 +81,7 @@ void add_masses(const FeSource& fe, const MeshNodes& nodes, fem::Model& model) {
 }
 
 fem::Model read_deck(const FeSource& fe, fem::Mesh& mesh) {
-  fem::NastranDeck deck = fem::read_nastran(fe.file, {.allow_losses = !fe.allow.empty(), .spc_set = {}, .mpc_set = {}});
+  fem::Deck deck = fem::read_deck(fe.file, !fe.allow.empty());
   mesh = std::move(deck.mesh);
   fem::Model model = to_si(std::move(deck.model), fe.units);
   if (fe.beam_mass)
@@ -100,7 +100,7 @@ fem::Model build_model(const SceneBody& body) {
                      "Only a body with `fe` or `beam` has a model");
   fem::Mesh mesh;
   fem::Model model;
-  if (is_deck(fe->file)) {
+  if (fem::is_deck(fe->file)) {
     model = read_deck(*fe, mesh);
   } else {
     mesh = fem::read_mesh(fe->file);

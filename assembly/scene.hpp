@@ -173,9 +173,6 @@ struct Scene {
 /// unknown keys (with a near miss), missing keys, values of another kind, joints between unknown ports, units missing.
 Scene read_scene(const std::filesystem::path& path);
 
-/// A Nastran deck by its extension (.bdf, .dat, .nas, .blk): it brings sections, materials and masses of its own.
-bool is_deck(const std::filesystem::path& file);
-
 /// The body of that name; throws InputError with a near miss.
 const SceneBody& body_named(const Scene& scene, const std::string& name);
 

@@ -5,6 +5,7 @@
 
 #include "assembly/scene/quantity.hpp"
 #include "assembly/scene/read.hpp"
+#include "fem/formats/deck.hpp"
 
 namespace tenon::assembly {
 namespace {
@@ -124,7 +125,7 @@ FeSource read_fe(const Member& entry, const std::filesystem::path& folder, const
   fe.file = folder / body.find("fe")->text;
   fe.units = units;
   const Value* sections = body.find("sections");
-  if (is_deck(fe.file)) {
+  if (fem::is_deck(fe.file)) {
     refuse(body, {"sections", "material", "ignore"}, "a deck, which carries its own");
   } else if (!sections || sections->members.empty()) {
     throw InputError(

@@ -119,11 +119,6 @@ Scene read(const std::filesystem::path& path, bool moving) {
 Scene read_scene(const std::filesystem::path& path) { return read(path, false); }
 Scene read_moving_scene(const std::filesystem::path& path) { return read(path, true); }
 
-bool is_deck(const std::filesystem::path& file) {
-  const std::string extension = file.extension().string();
-  return extension == ".bdf" || extension == ".dat" || extension == ".nas" || extension == ".blk";
-}
-
 const SceneBody& body_named(const Scene& scene, const std::string& name) {
   std::vector<std::string> names;
   for (const SceneBody& body : scene.bodies) {

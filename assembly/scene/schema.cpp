@@ -96,7 +96,7 @@ const Schema supports{"supports", {}, &one_support};
 
 const Schema body{"a body",
                   {{"rigid", map, "a rigid body", false, &rigid},
-                   {"fe", scalar, "a mesh (.msh) or Nastran deck (.bdf, .dat), relative to the scene"},
+                   {"fe", scalar, "a mesh (.msh, .inp) or deck (.bdf, .dat, .inp), relative to the scene"},
                    {"reduced", scalar, "a *.body.json file"},
                    {"beam", map, "a straight beam without a mesh", false, &beam},
                    {"material", scalar | map, "of every section without one of its own", false, &material},

@@ -2,22 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <fstream>
 
 #include "fem/error.hpp"
+#include "fem/formats/abaqus.hpp"
+#include "fem/formats/extension.hpp"
 #include "fem/formats/gmsh.hpp"
 
 namespace tenon::fem {
 namespace {
-
-std::string lower_extension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return extension;
-}
 
 bool begins_as_gmsh(const std::filesystem::path& path) {
   constexpr std::string_view heading = "$MeshFormat";
@@ -34,11 +28,13 @@ Mesh read_mesh(const std::filesystem::path& path) {
   const bool regular = std::filesystem::is_regular_file(path, error);
   const std::string extension = lower_extension(path);
   if (!regular || extension == ".msh" || begins_as_gmsh(path)) return read_gmsh(path);
+  if (extension == ".inp") return read_abaqus(path, {.allow_losses = true}).mesh;
   const bool deck = extension == ".bdf" || extension == ".dat" || extension == ".nas";
   throw InputError(
       {path.string()}, fmt::format("'{}' is not a mesh format that is read here", extension),
       deck ? "A Nastran deck is a whole model with its own sections, not a mesh: give it where a deck is asked for"
-           : "Give a Gmsh mesh (.msh, version 2.2 or 4.1); gmsh converts others: gmsh in.unv -save -format msh41 -o "
+           : "Give a Gmsh mesh (.msh, version 2.2 or 4.1) or an Abaqus one (.inp); gmsh converts others: gmsh in.unv "
+             "-save -format msh41 -o "
              "out.msh");
 }
 

@@ -24,7 +24,7 @@ const CLI::Validator positive(
 void add_info(CLI::App& program, int& status) {
   const auto options = std::make_shared<InfoOptions>();
   CLI::App* command = program.add_subcommand("info", "what a mesh or deck holds, and what was read past");
-  command->add_option("MESH", options->file, "a mesh (.msh) or Nastran deck (.bdf, .dat)")->required();
+  command->add_option("MESH", options->file, "a mesh (.msh, .inp) or deck (.bdf, .dat, .inp)")->required();
   command->add_flag("--json", options->json, "one JSON object");
   command->footer("Example: tenon info panel.msh");
   command->callback([options, &status] { status = run(*options); });
@@ -51,7 +51,7 @@ void add_check(CLI::App& program, int& status) {
 void add_modes(CLI::App& program, int& status) {
   const auto options = std::make_shared<ModesOptions>();
   CLI::App* command = program.add_subcommand("modes", "natural frequencies of a scene or of a Nastran deck");
-  command->add_option("INPUT", options->file, "a scene (.yaml, .json) or deck (.bdf, .dat)")->required();
+  command->add_option("INPUT", options->file, "a scene (.yaml, .json) or deck (.bdf, .dat, .inp)")->required();
   command->add_option("--count", options->count, "how many modes, rigid ones included")->check(CLI::Range(1, 100000));
   command->add_option("--band", options->band_hz, "instead of --count: all modes between F0 and F1 [Hz]")->expected(2);
   command->add_flag("--full", options->full, "the unreduced FE model, beside the reduced one");

@@ -4,7 +4,7 @@
 #include <map>
 
 #include "fem/error.hpp"
-#include "fem/formats/nastran.hpp"
+#include "fem/formats/deck.hpp"
 #include "fem/formats/read_mesh.hpp"
 #include "interfaces/cli/commands.hpp"
 #include "interfaces/cli/input.hpp"
@@ -108,7 +108,7 @@ int run(const InfoOptions& options) {
   fem::Mesh mesh;
   fem::Model model;
   if (kind == InputKind::deck) {
-    fem::NastranDeck deck = fem::read_nastran(options.file, {.allow_losses = true, .spc_set = {}, .mpc_set = {}});
+    fem::Deck deck = fem::read_deck(options.file, true);
     mesh = std::move(deck.mesh);
     model = std::move(deck.model);
   } else {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "fem/error.hpp"
-#include "fem/formats/nastran.hpp"
+#include "fem/formats/deck.hpp"
 
 namespace tenon::cli {
 
@@ -22,11 +22,11 @@ InputKind kind_of(const std::filesystem::path& file) {
   }
   const std::string extension = file.extension().string();
   if (extension == ".yaml" || extension == ".yml" || extension == ".json") return InputKind::scene;
-  return assembly::is_deck(file) ? InputKind::deck : InputKind::mesh;
+  return fem::is_deck(file) ? InputKind::deck : InputKind::mesh;
 }
 
 fem::Model deck_model(const std::filesystem::path& file, const std::vector<std::string>& allow, fem::Mesh* mesh) {
-  fem::NastranDeck deck = fem::read_nastran(file, {.allow_losses = !allow.empty(), .spc_set = {}, .mpc_set = {}});
+  fem::Deck deck = fem::read_deck(file, !allow.empty());
   for (const fem::Loss& loss : deck.model.losses)
     if (loss.changes_physics && std::find(allow.begin(), allow.end(), loss.name) == allow.end())
       throw InputError(

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "fem/formats/abaqus.hpp"
+#include "fem/formats/abaqus/text.hpp"
+
+/// What the steps of the reader share while keywords become a mesh and a model.
+namespace tenon::fem::abaqus {
+
+/// What elements of a type are made of here.
+enum class Formulation { beam, shell, mass, rotary_inertia, spring_to_ground, spring, other };
+
+struct ElementType {
+  Formulation formulation = Formulation::other;
+  std::optional<CellType> cell;  ///< none: no cell of the mesh
+  int nodes = 0;                 ///< 0: as many as its line holds
+};
+
+/// By the name in TYPE=, upper case.
+ElementType element_type(const std::string& name);
+
+/// An element as the deck lists it; its nodes are those of a cell or stand here (springs, masses).
+struct ListedElement {
+  long id = 0;
+  int type = 0;                   ///< of Draft::types
+  int first_node = 0, nodes = 0;  ///< of Draft::element_nodes
+  int block = -1, cell = -1;      ///< of the mesh
+};
+
+struct NamedType {
+  std::string name;
+  ElementType type;
+  Place place;  ///< of its first *ELEMENT
+  bool sectioned = false;
+};
+
+/// Losses as they are found, equal ones counted together; those that change stiffness or mass know their first place.
+class LossReport {
+ public:
+  void add(const std::string& name, const std::string& note, long count = 1);
+  void add_physical(const std::string& name, const std::string& note, const Place& place, long count = 1);
+  std::vector<Loss> losses() const;
+  /// Throws InputError naming every physical loss, at the place of the first.
+  void refuse_physical() const;
+
+ private:
+  struct Entry {
+    Loss loss;
+    Place first;
+  };
+  std::vector<Entry> entries_;
+};
+
+/// A material card under way.
+struct DraftMaterial {
+  Material material;
+  Place place;
+  bool isotropic = true;
+};
+
+struct Draft {
+  Text text;
+  AbaqusDeck deck;
+  LossReport losses;
+
+  std::unordered_map<long, int> node_of;  ///< the file's number → node
+  std::vector<NamedType> types;
+  std::vector<ListedElement> elements;
+  std::vector<int> element_nodes;
+  std::unordered_map<long, int> element_of;                                   ///< the file's number → of `elements`
+  std::map<std::string, std::pair<std::string, std::vector<int>>> node_sets;  ///< upper case → name, nodes
+  std::map<std::string, std::pair<std::string, std::vector<int>>> element_sets;  ///< upper case → name, of `elements`
+  std::map<std::string, DraftMaterial> materials;                                ///< upper case
+  std::map<int, Mat3> node_axes;                                                 ///< *TRANSFORM; others: basic
+
+  int node(const DataLines& line, std::size_t field, const char* what) const;
+  /// Nodes of a number or a node set; throws InputError with near misses.
+  std::vector<int> nodes(const DataLines& line, std::size_t field, const char* what) const;
+  const std::vector<int>& node_set(const std::string& name, const Place& place) const;
+  const std::vector<int>& element_set(const std::string& name, const Place& place) const;
+  /// Nodes of an element of the deck.
+  std::vector<int> nodes_of(int element) const;
+  /// Axes (columns) that dofs of a node are given in.
+  const Mat3& axes(int node) const;
+};
+
+// The steps, in the order of their calls.
+void read_nodes(Draft& draft);       ///< *NODE
+void read_elements(Draft& draft);    ///< *ELEMENT
+void read_sets(Draft& draft);        ///< *NSET, *ELSET; then the mesh's sets
+void read_transforms(Draft& draft);  ///< *TRANSFORM
+void read_materials(Draft& draft);   ///< *MATERIAL and what stands under it
+void read_sections(Draft& draft);    ///< *BEAM SECTION, *SHELL SECTION, *MASS, ... : the model's elements
+void read_links(Draft& draft);       ///< *RIGID BODY, *COUPLING, *MPC, *EQUATION
+void read_supports(Draft& draft);    ///< *BOUNDARY
+void classify_rest(Draft& draft);    ///< every other keyword becomes a loss
+
+}  // namespace tenon::fem::abaqus

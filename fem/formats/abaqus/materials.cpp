@@ -1,0 +1,52 @@
+#include <fmt/format.h>
+
+#include "fem/formats/abaqus/draft.hpp"
+
+namespace tenon::fem::abaqus {
+namespace {
+
+void elastic(const Block& block, DraftMaterial& current) {
+  const std::string type = block.upper_value("TYPE");
+  if (!type.empty() && type != "ISO" && type != "ISOTROPIC") {
+    current.isotropic = false;
+    return;
+  }
+  DataLines line(block);
+  if (!line.next()) block.refuse("*ELASTIC has no data line", "Give E and ν");
+  Material& m = current.material;
+  m.E = line.positive(0, "Young's modulus");
+  m.nu = line.real(1, "Poisson's ratio", 0.0);
+  if (!(m.nu > -1.0 && m.nu <= 0.5)) line.fail(1, "Poisson's ratio above −1 and at most 0.5");
+  m.G = 0.5 * m.E / (1.0 + m.nu);
+}
+
+void density(const Block& block, DraftMaterial& current) {
+  DataLines line(block);
+  if (!line.next()) block.refuse("*DENSITY has no data line", "Give the density");
+  current.material.rho = line.real(0, "the density");
+  if (!(current.material.rho >= 0.0)) line.fail(0, "a density that is not negative");
+}
+
+}  // namespace
+
+void read_materials(Draft& draft) {
+  DraftMaterial* current = nullptr;
+  for (const Block& block : draft.text.blocks) {
+    if (block.keyword == "MATERIAL") {
+      const std::string name = block.value("NAME");
+      if (name.empty()) block.refuse("*MATERIAL has no NAME", "Write *MATERIAL, NAME=steel");
+      const auto [entry, added] = draft.materials.try_emplace(upper(name), DraftMaterial{});
+      if (!added)
+        block.refuse(fmt::format("material '{}' stands already at {}", name, to_string(entry->second.place)),
+                     "Give it a name of its own or remove one of the two");
+      current = &entry->second;
+      current->place = block.place;
+      current->material.name = name;
+    } else if (block.keyword == "ELASTIC" || block.keyword == "DENSITY") {
+      if (!current) block.refuse(fmt::format("*{} stands under no *MATERIAL", block.keyword), "Put it behind one");
+      block.keyword == "ELASTIC" ? elastic(block, *current) : density(block, *current);
+    }
+  }
+}
+
+}  // namespace tenon::fem::abaqus

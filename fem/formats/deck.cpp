@@ -1,0 +1,24 @@
+#include "fem/formats/deck.hpp"
+
+#include "fem/formats/abaqus.hpp"
+#include "fem/formats/extension.hpp"
+#include "fem/formats/nastran.hpp"
+
+namespace tenon::fem {
+
+bool is_deck(const std::filesystem::path& file) {
+  const std::string extension = lower_extension(file);
+  if (extension == ".inp") return abaqus_gives_sections(file);
+  return extension == ".bdf" || extension == ".dat" || extension == ".nas" || extension == ".blk";
+}
+
+Deck read_deck(const std::filesystem::path& file, bool allow_losses) {
+  if (lower_extension(file) == ".inp") {
+    AbaqusDeck deck = read_abaqus(file, {.allow_losses = allow_losses});
+    return {std::move(deck.mesh), std::move(deck.model)};
+  }
+  NastranDeck deck = read_nastran(file, {.allow_losses = allow_losses, .spc_set = {}, .mpc_set = {}});
+  return {std::move(deck.mesh), std::move(deck.model)};
+}
+
+}  // namespace tenon::fem

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <filesystem>
+
+#include "fem/model.hpp"
+
+/// Decks: files that carry a whole model, sections and materials included, whatever program they are for.
+namespace tenon::fem {
+
+struct Deck {
+  Mesh mesh;
+  Model model;  ///< its first nodes are those of the mesh
+};
+
+/// Nastran bulk data by its extension (.bdf, .dat, .nas, .blk); an .inp file that gives its elements sections. An .inp
+/// file without any is a mesh. @throws InputError when an .inp file cannot be read
+bool is_deck(const std::filesystem::path& file);
+
+/// Reads it by read_nastran or read_abaqus. @param allow_losses  read on past what would change stiffness or mass
+Deck read_deck(const std::filesystem::path& file, bool allow_losses);
+
+}  // namespace tenon::fem

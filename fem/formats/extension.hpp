@@ -1,0 +1,17 @@
+#pragma once
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+
+namespace tenon::fem {
+
+/// ".msh" of "Part.MSH".
+inline std::string lower_extension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return extension;
+}
+
+}  // namespace tenon::fem

@@ -1,0 +1,293 @@
+#include "fem/formats/abaqus.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "fem/error.hpp"
+#include "fem/formats/deck.hpp"
+#include "fem/formats/read_mesh.hpp"
+#include "fem/structure.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+using namespace tenon;
+using namespace tenon::fem;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+namespace {
+
+class Abaqus : public testing::Test {
+ protected:
+  AbaqusDeck read(const std::string& text, bool allow = false) {
+    return read_abaqus(folder.write("deck.inp", text), {.allow_losses = allow});
+  }
+  void refused(const std::string& text, const std::string& place, const std::string& what) {
+    EXPECT_THAT([&] { read(text); }, ThrowsMessage<InputError>(AllOf(HasSubstr(place), HasSubstr(what)))) << text;
+  }
+  TemporaryFolder folder;
+};
+
+const Loss* loss(const Model& model, const std::string& name) {
+  for (const Loss& l : model.losses)
+    if (l.name == name) return &l;
+  return nullptr;
+}
+
+// a cantilever of two beams along x with a mass at its tip
+const std::string cantilever = R"(*HEADING
+ A cantilever
+** a comment
+*NODE, NSET=all
+1, 0., 0., 0.
+2, 1., 0., 0.
+*node, nset=All
+3, 2.0E0, 0.
+*ELEMENT, TYPE=B31, ELSET=boom
+10, 1, 2
+11, 2, 3
+*ELEMENT, TYPE=MASS, ELSET=tip
+20, 3
+*MATERIAL, NAME=Steel
+*ELASTIC
+2.1D11, 0.3
+*DENSITY
+7800.
+*BEAM SECTION, ELSET=boom, MATERIAL=STEEL, SECTION=RECT
+0.02, 0.03
+0., 1., 0.
+*MASS, ELSET=tip
+5.
+*BOUNDARY
+1, 1, 6
+)";
+
+}  // namespace
+
+TEST_F(Abaqus, ReadsACantilever) {
+  const AbaqusDeck deck = read(cantilever);
+  EXPECT_EQ(deck.title, "A cantilever");
+  EXPECT_TRUE(deck.has_sections);
+  ASSERT_EQ(deck.mesh.points.size(), 3U);  // the second *NODE block adds to the first
+  EXPECT_THAT(deck.mesh.point_sets.at("all"), ElementsAre(0, 1, 2));
+  EXPECT_EQ(deck.model.elements.size(), 3U);
+  const auto& beam = std::get<Beam>(deck.model.elements[0]);
+  const BeamSection& s = deck.model.beam_sections[0];
+  EXPECT_EQ(beam.orientation, Vec3::UnitY());
+  EXPECT_DOUBLE_EQ(s.Iz, 0.03 * std::pow(0.02, 3) / 12.0);  // I22: the section is .02 wide along n1 = y
+  EXPECT_DOUBLE_EQ(s.Iy, 0.02 * std::pow(0.03, 3) / 12.0);
+  EXPECT_DOUBLE_EQ(deck.model.materials[0].E, 2.1e11);
+  EXPECT_EQ(deck.model.supports.size(), 6U);
+  EXPECT_NEAR(geometric_mass_properties(deck.model).mass, 5.0 + 2.0 * 6e-4 * 7800.0, 1e-12);
+  EXPECT_TRUE(deck.model.losses.empty());
+}
+
+TEST_F(Abaqus, WindowsLineEndsTabsAndSpacesChangeNothing) {
+  std::string text;
+  for (const char c : cantilever) c == '\n' ? text += "\r\n" : c == ',' ? text += "\t,  " : text += c;
+  const Structure a = assemble(read(cantilever).model), b = assemble(read(text).model);
+  EXPECT_EQ((a.K - b.K).norm(), 0.0);
+  EXPECT_EQ((a.M - b.M).norm(), 0.0);
+}
+
+TEST_F(Abaqus, SetsOfSetsAndRanges) {
+  const AbaqusDeck deck = read(R"(*NODE
+1,0.,0.,0.
+2,1.,0.,0.
+3,2.,0.,0.
+7,3.,0.,0.
+*ELEMENT,TYPE=B31,ELSET=first
+1,1,2
+*ELEMENT,TYPE=B31,ELSET=second
+2,2,3
+3,3,7
+*NSET,NSET=odd,GENERATE
+1,100000000,2
+*NSET,NSET=some
+2,3
+*NSET,NSET=both
+odd,SOME
+*ELSET,ELSET=whole
+first,
+second
+*NSET,NSET=of_second,ELSET=second
+)");
+  EXPECT_FALSE(deck.has_sections);
+  EXPECT_THAT(deck.mesh.point_sets.at("odd"), ElementsAre(0, 2, 3));
+  EXPECT_THAT(deck.mesh.point_sets.at("both"), ElementsAre(0, 1, 2, 3));
+  EXPECT_THAT(deck.mesh.point_sets.at("of_second"), ElementsAre(1, 2, 3));
+  EXPECT_THAT(deck.mesh.cell_sets.at("whole")[0], ElementsAre(0, 1, 2));
+}
+
+TEST_F(Abaqus, IncludedDataGoToTheKeywordBefore) {
+  folder.write("nodes.txt", "1,0.,0.,0.\n2,1.,0.,0.\n");
+  const AbaqusDeck deck = read("*NODE\n*INCLUDE, INPUT=nodes.txt\n*ELEMENT,TYPE=B31\n1,1,2\n");
+  EXPECT_EQ(deck.mesh.points.size(), 2U);
+  refused("*NODE\n*INCLUDE, INPUT=deck.inp\n", "deck.inp:2", "includes itself");
+  refused("*NODE\n*INCLUDE, INPUT=none.inp\n", "deck.inp:2", "does not exist");
+}
+
+TEST_F(Abaqus, SecondOrderElementsAreSplitWithANotice) {
+  const AbaqusDeck deck = read(R"(*NODE
+1,0.,0.,0.
+2,2.,0.,0.
+3,2.,2.,0.
+4,0.,2.,0.
+5,1.,0.,0.
+6,2.,1.,0.
+7,1.,2.,0.
+8,0.,1.,0.
+9,4.,0.,0.
+10,3.,0.,0.
+*ELEMENT,TYPE=S8R,ELSET=plate
+1,1,2,3,4,5,6,7,8
+*ELEMENT,TYPE=B32,ELSET=bar
+2,2,10,9
+*MATERIAL,NAME=M
+*ELASTIC
+7E10,.3
+*DENSITY
+2700.
+*SHELL SECTION,ELSET=plate,MATERIAL=M
+.01
+*BEAM SECTION,ELSET=bar,MATERIAL=M,SECTION=PIPE
+.05,.01
+)");
+  EXPECT_EQ(deck.model.elements.size(), 7U);
+  EXPECT_EQ(loss(deck.model, "S8R")->count, 1);
+  EXPECT_EQ(loss(deck.model, "B32")->count, 1);
+  EXPECT_FALSE(loss(deck.model, "S8R")->changes_physics);
+  const double pipe = std::numbers::pi * (.05 * .05 - .04 * .04) * 2.0;
+  EXPECT_NEAR(geometric_mass_properties(deck.model).mass, 2700.0 * (4.0 * .01 + pipe), 1e-9);
+}
+
+TEST_F(Abaqus, RoundSectionsOfBothPrograms) {
+  const auto area = [&](const std::string& data) {
+    std::string text = cantilever;
+    text.replace(text.find("SECTION=RECT\n0.02, 0.03"), 23, "SECTION=CIRC\n" + data);
+    return read(text).model.beam_sections[0].A;
+  };
+  EXPECT_DOUBLE_EQ(area("0.05"), std::numbers::pi * 0.05 * 0.05);          // a radius
+  EXPECT_DOUBLE_EQ(area("0.05, 0.05"), std::numbers::pi * 0.025 * 0.025);  // two diameters
+}
+
+TEST_F(Abaqus, AnISectionOffItsNodes) {
+  std::string text = cantilever;
+  text.replace(text.find("SECTION=RECT\n0.02, 0.03"), 23, "SECTION=I\n0., .1, .06, .06, .01, .01, .005");
+  const Model model = read(text).model;
+  const BeamSection& s = model.beam_sections[0];
+  EXPECT_NEAR(s.A, 2 * .06 * .01 + .08 * .005, 1e-15);
+  EXPECT_NEAR(s.Iy, (.06 * 1e-3 - .055 * std::pow(.08, 3)) / 12.0, 1e-18);
+  // n2 = t × n1 = x × y = z: the nodes lie at the bottom, the centroid .05 above them
+  EXPECT_NEAR((std::get<Beam>(model.elements[0]).offsets[0] - Vec3(0, 0, .05)).norm(), 0.0, 1e-15);
+}
+
+TEST_F(Abaqus, RigidBodiesCouplingsEquationsAndSprings) {
+  const std::string nodes = cantilever + R"(*NODE
+30, 2., 1., 0.
+31, 2., 0., 1.
+32, 3., 0., 0.
+)";
+  const Model rigid = read(nodes + "*NSET,NSET=rim\n30,31\n*RIGID BODY,NSET=rim,REF NODE=3\n").model;
+  ASSERT_EQ(rigid.rigid_links.size(), 1U);
+  EXPECT_THAT(rigid.rigid_links[0].dependents, ElementsAre(3, 4));
+  const Model kinematic = read(nodes + R"(*SURFACE,NAME=rim,TYPE=NODE
+30,
+31,
+*COUPLING,REF NODE=3,SURFACE=RIM,CONSTRAINT NAME=c
+*KINEMATIC
+1,3
+)")
+                              .model;
+  ASSERT_EQ(kinematic.rigid_links.size(), 1U);
+  EXPECT_EQ(kinematic.rigid_links[0].directions, 0b000111);
+  const Model average = read(nodes + R"(*SURFACE,NAME=rim,TYPE=NODE
+1
+2
+3
+*COUPLING,REF NODE=32,SURFACE=rim,CONSTRAINT NAME=c
+*DISTRIBUTING
+)")
+                            .model;
+  ASSERT_EQ(average.average_links.size(), 1U);
+  EXPECT_EQ(average.average_links[0].nodes.size(), 3U);
+  const Model equation = read(nodes + "*EQUATION\n3\n30,1,1.,3,1,-1.,\n3,6,1.\n").model;
+  ASSERT_EQ(equation.constraints.size(), 1U);
+  EXPECT_EQ(equation.constraints[0].terms.size(), 3U);
+  const Model spring = read(nodes + R"(*ELEMENT,TYPE=SPRING2,ELSET=k
+40,3,32
+*SPRING,ELSET=k
+2,2
+1000.
+)")
+                           .model;
+  const auto& k = std::get<Spring>(spring.elements.back());
+  EXPECT_EQ(k.dof_a, 1);
+  EXPECT_EQ(k.k, 1000.0);
+}
+
+TEST_F(Abaqus, SupportsInTurnedFrames) {
+  const std::string text =
+      cantilever + "*NSET,NSET=tip\n3\n*TRANSFORM,NSET=tip,TYPE=R\n1.,1.,0.,-1.,1.,0.\n*BOUNDARY\ntip,1\n";
+  const Model model = read(text).model;
+  ASSERT_EQ(model.constraints.size(), 1U);  // (u_x + u_y)/√2 = 0
+  ASSERT_EQ(model.constraints[0].terms.size(), 2U);
+  EXPECT_NEAR(model.constraints[0].terms[1].coefficient, std::sqrt(0.5), 1e-15);
+}
+
+TEST_F(Abaqus, WhatCarriesStiffnessIsRefusedByName) {
+  std::string solid = cantilever + R"(*NODE
+51,0.,1.,1.
+52,1.,1.,1.
+53,1.,2.,1.
+54,1.,1.,2.
+*ELEMENT,TYPE=C3D4,ELSET=block
+60,51,52,53,54
+*SOLID SECTION,ELSET=block,MATERIAL=STEEL
+)";
+  refused(solid, "deck.inp", "C3D4 (1 found");
+  refused(solid, "matrices", "would change stiffness or mass");
+  EXPECT_TRUE(loss(read(solid, true).model, "C3D4")->changes_physics);
+  refused(cantilever + "*TIE,NAME=t\na,b\n", "deck.inp:26", "*TIE");
+  refused(cantilever + "*FANCY NEW THING\n", "deck.inp:26", "*FANCY NEW THING");
+  EXPECT_EQ(loss(read(cantilever + "*STEP\n*FREQUENCY\n10\n*END STEP\n").model, "*STEP")->count, 1);
+}
+
+TEST_F(Abaqus, FaultsAreSaidWithTheirPlace) {
+  const auto with = [](const std::string& old, const std::string& now) {
+    std::string text = cantilever;
+    return text.replace(text.find(old), old.size(), now);
+  };
+  refused("", "deck.inp", "the file is empty");
+  refused("1,2,3\n", "deck.inp:1:1", "before any keyword");
+  refused("nothing\n", "deck.inp:1:1", "before any keyword");
+  refused(std::string("*NODE\n1,0.,\0,0.\n", 16), "deck.inp:2", "expected text");
+  refused("*HEADING\nonly\n", "deck.inp", "defines no node");
+  refused(with("2, 1., 0., 0.", "2, 1.x, 0., 0."), "deck.inp:6:4", "expected x (a number)");
+  refused(with("2, 1., 0., 0.", "1, 1., 0., 0."), "deck.inp:6:1", "defined a second time");
+  refused(with("2, 1., 0., 0.", "2, nan, 0., 0."), "deck.inp:6:4", "expected x");
+  refused(with("11, 2, 3", "11, 2, 4"), "deck.inp:11:8", "node 4 is not defined");
+  refused(with("11, 2, 3", "10, 2, 3"), "deck.inp:11:1", "element 10 is defined a second time");
+  refused(with("11, 2, 3", "11, 2"), "deck.inp", "has 1 nodes, expected 2");
+  refused(with("11, 2, 3", "11, 2, 3, 1"), "deck.inp:11", "has 3 nodes, expected 2");
+  refused(with("ELSET=boom, MATERIAL=STEEL", "ELSET=bom, MATERIAL=STEEL"), "deck.inp:19", "Did you mean 'boom'");
+  refused(with("MATERIAL=STEEL", "MATERIAL=STEAL"), "deck.inp:19", "Did you mean 'STEEL'");
+  refused(with("2.1D11, 0.3", "-1, 0.3"), "deck.inp:16:1", "above zero");
+  refused(with("2.1D11, 0.3", "1e9, 0.7"), "deck.inp:16", "Poisson");
+  refused(with("0.02, 0.03", "0.02"), "deck.inp:20", "expected b");
+  refused(with("0., 1., 0.", "1., 0., 0."), "deck.inp:19", "lies along it");
+  refused(with("1, 1, 6", "9, 1, 6"), "deck.inp:25:1", "node 9 is not defined");
+  refused(with("1, 1, 6", "root, 1, 6"), "deck.inp:25:1", "there is no node set 'root'");
+  refused(with("*MASS, ELSET=tip", "*MASS, ELSET=boom"), "deck.inp:22", "has a section already");
+  refused(with("TYPE=B31", "TIPE=B31"), "deck.inp:9", "has no TYPE");
+}
+
+TEST_F(Abaqus, AMeshOrADeckByItsSections) {
+  const auto deck = folder.write("a.inp", cantilever);
+  const auto mesh = folder.write("b.inp", "*NODE\n1,0.,0.,0.\n2,1.,0.,0.\n*ELEMENT,TYPE=T3D2,ELSET=line\n1,1,2\n");
+  EXPECT_TRUE(is_deck(deck));
+  EXPECT_FALSE(is_deck(mesh));
+  EXPECT_EQ(read_deck(deck, false).model.elements.size(), 3U);
+  EXPECT_EQ(read_mesh(mesh).cells.size(), 1U);
+}
