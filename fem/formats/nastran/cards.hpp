@@ -62,7 +62,8 @@ struct Text {
 /// Splits a deck into cards. Everything before CEND is read past; a file without BEGIN BULK is bulk data throughout.
 /// Paths of INCLUDE are relative to the including file, else to the deck. Throws InputError for files that are missing,
 /// empty, not text or included twice, and for lines that cannot be split.
-Text read_text(const std::filesystem::path& path);
+/// @param superelement  the file may be the bulk data of one superelement, opened by BEGIN SUPER = n
+Text read_text(const std::filesystem::path& path, bool superelement = false);
 
 /// 1.5, 1.5E+3, 1.5D3, 1.5+3, 15: what Nastran takes for a number; nothing for anything else or out of range.
 std::optional<double> parse_real(std::string_view text);

@@ -89,6 +89,7 @@ enum class Section { executive, case_control, bulk, done };
 
 class Reader {
  public:
+  explicit Reader(bool superelement) : superelement_(superelement) {}
   Text read(const fs::path& path) {
     deck_folder_ = path.parent_path();
     file(path, {path.string(), 0, 0});
@@ -114,6 +115,10 @@ class Reader {
   std::uint32_t name_index(std::string_view name);
   const SourceFile& source() const { return text_.files[file_]; }
   Place here(int column = 0) const { return {source().name, line_, column}; }
+  /// BEGIN SUPER = n ahead of all cards, where one superelement is asked for.
+  bool opens_superelement(std::string_view tail) const {
+    return superelement_ && text_.cards.empty() && starts_with_word(tail, "SUPER");
+  }
 
   Text text_;
   std::map<std::string, std::uint32_t> name_index_;
@@ -125,6 +130,7 @@ class Reader {
   int line_ = 0;
   const char* line_begin_ = nullptr;
   std::vector<std::string_view> parts_;  ///< of a line in free fields
+  bool superelement_ = false;
   bool card_open_ = false;
   std::size_t columns_ = 0;  ///< length of the open card's line when its fields stand in columns
   std::string mark_;         ///< continuation mark that the open card's last line ended with
@@ -220,7 +226,7 @@ void Reader::case_line(std::string_view line, Lines& lines) {
   std::string rest;
   if (is_begin(line, &rest)) {
     const std::string_view tail = trim(without_comment(rest));
-    if (!tail.empty())
+    if (!tail.empty() && !opens_superelement(tail))
       throw InputError(here(),
                        fmt::format("found BEGIN BULK {}: parts and superelements in one file are not read", tail),
                        "Give each part as a deck of its own");
@@ -247,7 +253,7 @@ void Reader::bulk_line(std::string_view line, Lines& lines) {
   }
   std::string rest;
   if (is_begin(statement, &rest)) {
-    if (!trim(without_comment(rest)).empty())
+    if (const std::string_view tail = trim(without_comment(rest)); !tail.empty() && !opens_superelement(tail))
       throw InputError(
           here(),
           "found " + upper(trim(without_comment(statement))) + ": parts and superelements in one file are not read",
@@ -380,6 +386,6 @@ SourceFile::SourceFile(std::string as_named, const fs::path& path) : name(std::m
   pages.release(pages.bytes().size());
 }
 
-Text read_text(const fs::path& path) { return Reader{}.read(path); }
+Text read_text(const fs::path& path, bool superelement) { return Reader(superelement).read(path); }
 
 }  // namespace tenon::fem::nastran
