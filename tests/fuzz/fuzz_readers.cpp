@@ -18,8 +18,14 @@
 
 #include "assembly/scene.hpp"
 #include "fem/error.hpp"
+#include "fem/formats/matrices/abaqus.hpp"
+#include "fem/formats/matrices/calculix.hpp"
+#include "fem/formats/matrices/dmig.hpp"
+#include "fem/formats/matrices/op4.hpp"
+#include "fem/formats/matrices/superelement.hpp"
 #include "fem/formats/nastran.hpp"
 #include "fem/formats/read_mesh.hpp"
+#include "tests/unit/fem/formats/matrices/op4_files.hpp"
 
 namespace {
 
@@ -55,6 +61,46 @@ SPC1,1,123456,1
 ENDDATA
 )";
 
+// a superelement's description; its matrices lie beside it
+const char* const description = R"(SECONCT        7       0              NO
+               4    1004     101    2101
+CORD2R,5,,0.,0.,0.,0.,0.,1.
+,1.,1.,0.
+GRID,1004,,1.,2.,3.,5
+SPOINT,2101
+EXTRN,4,123456,101,THRU,101,0
+)";
+
+const char* const direct_matrices = R"(GRID,2
+SPOINT,20
+DMIG,KAAX,0,6,2,0
+DMIG*   KAAX                           2               1
+*                      2               1 4.000000000D+00
+DMIG,KAAX,20,0,,20,0,9.
+DMIG,MAAX,0,1,1,0
+DMIG,MAAX,2,1,,2,1,1.5
+ENDDATA
+)";
+
+/// Files of matrices, of every kind of OP4.
+void add_matrices(std::vector<Seed>& all) {
+  using fem::testing::Layout;
+  Eigen::MatrixXd A = Eigen::MatrixXd::Identity(7, 7);
+  A(1, 4) = A(4, 1) = 0.5;
+  for (const Layout layout : {Layout::dense, Layout::sparse, Layout::big}) {
+    const auto number = static_cast<int>(layout);
+    all.push_back({fmt::format("binary{}.op4", number), fem::testing::op4_binary("KXX", A, {.layout = layout})});
+    all.push_back({fmt::format("ascii{}.op4", number), fem::testing::op4_ascii("KXX", A, {.layout = layout})});
+  }
+  all.push_back({"foreign.op4", fem::testing::op4_binary("KXX", A, {.type = 1, .foreign = true, .word = 8})});
+  all.push_back({"part.asm", description});
+  all.push_back({"direct.dmig", direct_matrices});
+  all.push_back({"k.mtx", "** K\n5,1, 5,1, 4.0e+00\n2,6, 5,1, -1.5\n2,6,2,6, 3.\n2,1,2,1, 1.0e+36\n"});
+  for (const char* ending : {"sti", "mas"})
+    all.push_back({std::string("job.") + ending, "1 1  4.0\n1 2 -1.5\n2 2  3.0\n"});
+  all.push_back({"job.dof", "7.1\n7.3\n"});
+}
+
 std::string bytes_of(const fs::path& path) {
   std::ifstream stream(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
@@ -62,6 +108,7 @@ std::string bytes_of(const fs::path& path) {
 
 std::vector<Seed> seeds() {
   std::vector<Seed> all{{"small.bdf", deck}};
+  add_matrices(all);
   for (const auto& entry : fs::recursive_directory_iterator(fs::path(TENON_SOURCE_DIR) / "data"))
     if (const auto extension = entry.path().extension(); extension == ".msh" || extension == ".yaml")
       all.push_back({entry.path().filename(), bytes_of(entry.path())});
@@ -109,7 +156,18 @@ void mutate(std::string& bytes, const std::vector<Seed>& all, Random& random) {
 }
 
 void read(const fs::path& file) {
-  if (file.extension() == ".yaml")
+  const fs::path extension = file.extension();
+  if (extension == ".op4")
+    fem::read_op4(file);
+  else if (extension == ".asm")
+    fem::read_nastran_superelement(file.string());
+  else if (extension == ".dmig")
+    fem::read_nastran_dmig(file.string());
+  else if (extension == ".mtx")
+    fem::read_abaqus_matrices(file, file);
+  else if (extension == ".sti" || extension == ".mas" || extension == ".dof")
+    fem::read_calculix_matrices(file.string());
+  else if (file.extension() == ".yaml")
     assembly::read_scene(file);
   else if (file.extension() == ".bdf")
     fem::read_nastran(file);
@@ -133,6 +191,14 @@ int main(int argc, char** argv) {
   const fs::path folder = argv[2];
   fs::create_directories(folder);
   const std::vector<Seed> all = seeds();
+  // what the files of a job and of a superelement find beside them, whichever of them is mutated
+  const auto restore = [&] {
+    for (const Seed& seed : all)
+      if (seed.name.stem() == "job") std::ofstream(folder / seed.name, std::ios::binary) << seed.bytes;
+  };
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(7, 7);
+  std::ofstream(folder / "part.op4", std::ios::binary)
+      << fem::testing::op4_binary("KXX", one) << fem::testing::op4_binary("MXX", one);
   Random random(seed);
   long read_count = 0, refused = 0;
   const auto start = std::chrono::steady_clock::now();
@@ -141,6 +207,7 @@ int main(int argc, char** argv) {
     std::string bytes = origin.bytes;
     for (std::size_t k = 1 + below(random, 4); k > 0; --k) mutate(bytes, all, random);
     const fs::path file = folder / origin.name;
+    restore();
     std::ofstream(file, std::ios::binary) << bytes;
     try {
       read(file);

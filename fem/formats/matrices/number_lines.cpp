@@ -1,0 +1,75 @@
+#include "fem/formats/matrices/number_lines.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "fem/error.hpp"
+#include "fem/formats/file_bytes.hpp"
+#include "fem/formats/nastran/cards.hpp"
+
+namespace tenon::fem::matrices {
+
+NumberLines::NumberLines(const std::filesystem::path& path) : file_(path.string()), bytes_(read_bytes(path)) {
+  if (bytes_.empty()) throw InputError({file_}, "the file is empty", "Let the program that writes it run to its end");
+  if (bytes_.back() != '\n')
+    throw InputError({file_}, "the last line has no line end, so the file is cut off",
+                     "Let the program that writes it run to its end");
+  rest_ = bytes_;
+}
+
+bool NumberLines::next() {
+  while (!rest_.empty()) {
+    const std::size_t end = rest_.find('\n');
+    start_ = rest_.data();
+    line_ = nastran::trim(rest_.substr(0, end));
+    rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
+    ++number_;
+    column_ = 0;
+    left_ = line_;
+    if (!line_.empty()) return true;
+  }
+  return false;
+}
+
+std::string_view NumberLines::word(const char* what) {
+  constexpr std::string_view separators = " \t,";
+  const std::size_t first = left_.find_first_not_of(separators);
+  if (first == std::string_view::npos) {
+    column_ = line_.empty() ? 0 : static_cast<long>(line_.data() + line_.size() - start_) + 1;
+    fail_expected("the end of the line", what);
+  }
+  left_.remove_prefix(first);
+  const std::string_view result = left_.substr(0, left_.find_first_of(separators));
+  left_.remove_prefix(result.size());
+  column_ = static_cast<long>(result.data() - start_) + 1;
+  return result;
+}
+
+long NumberLines::integer(const char* what) {
+  const std::string_view text = word(what);
+  if (const auto value = nastran::parse_integer(text)) return *value;
+  fail_expected(fmt::format("'{}'", text.substr(0, 40)), what);
+}
+
+double NumberLines::real(const char* what) {
+  const std::string_view text = word(what);
+  if (const auto value = nastran::parse_real(text); value && std::isfinite(*value)) return *value;
+  fail_expected(fmt::format("'{}'", text.substr(0, 40)), what);
+}
+
+void NumberLines::end_line() {
+  if (left_.find_first_not_of(" \t,") == std::string_view::npos) return;
+  fail_expected(fmt::format("'{}'", word("").substr(0, 40)), "the end of the line");
+}
+
+void NumberLines::fail(const std::string& what, const std::string& cure) const {
+  throw InputError({file_, number_, column_}, what, cure);
+}
+
+void NumberLines::fail_expected(std::string_view found, const char* what) const {
+  fail(fmt::format("found {}, expected {}", found, what),
+       "The file may be damaged or of another format; write it again");
+}
+
+}  // namespace tenon::fem::matrices

@@ -1,0 +1,119 @@
+// The matrices of a solid part that CalculiX stores against the frequencies that it finds itself.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <map>
+#include <tuple>
+
+#include "fem/formats/matrices/calculix.hpp"
+#include "tests/unit/fem/formats/scratch.hpp"
+
+using namespace tenon;
+using fem::Vec3;
+using fem::testing::Scratch;
+
+namespace {
+
+/// A block of 2×1×4 C3D20R, 2×1×6 mm of steel (t, mm, s), held at z = 0.
+class Block {
+ public:
+  Block() {
+    // corners, edge middles below, edge middles above, edge middles between, in half edges
+    constexpr int local[20][3] = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {0, 0, 2}, {2, 0, 2}, {2, 2, 2},
+                                  {0, 2, 2}, {1, 0, 0}, {2, 1, 0}, {1, 2, 0}, {0, 1, 0}, {1, 0, 2}, {2, 1, 2},
+                                  {1, 2, 2}, {0, 1, 2}, {0, 0, 1}, {2, 0, 1}, {2, 2, 1}, {0, 2, 1}};
+    int element = 0;
+    for (int k = 0; k < 4; ++k)
+      for (int i = 0; i < 2; ++i) {
+        elements_ += fmt::format("{}", ++element);
+        for (int l = 0; l < 20; ++l)
+          elements_ +=
+              fmt::format("{}{}", l == 14 ? ",\n" : ",", node(2 * i + local[l][0], local[l][1], 2 * k + local[l][2]));
+        elements_ += '\n';
+      }
+  }
+
+  std::string deck(const char* frequency_option) const {
+    std::string text = "*NODE, NSET=NALL\n", held;
+    for (const auto& [id, x] : positions) {
+      text += fmt::format("{},{:.17g},{:.17g},{:.17g}\n", id, x.x(), x.y(), x.z());
+      if (x.z() == 0.0) held += fmt::format("{},1,3\n", id);
+    }
+    return text + "*ELEMENT, TYPE=C3D20R, ELSET=EALL\n" + elements_ +
+           "*MATERIAL, NAME=STEEL\n*ELASTIC\n210000.,.3\n*DENSITY\n7.8E-9\n*SOLID SECTION, ELSET=EALL, MATERIAL=STEEL\n"
+           "*BOUNDARY\n" +
+           held + "*STEP\n*FREQUENCY, " + frequency_option + "\n10\n*END STEP\n";
+  }
+
+  std::map<long, Vec3> positions;
+
+ private:
+  long node(int i, int j, int k) {
+    const auto [entry, added] = ids_.try_emplace({i, j, k}, static_cast<long>(ids_.size()) + 1);
+    if (added) positions[entry->second] = {0.5 * i, 0.5 * j, 0.75 * k};
+    return entry->second;
+  }
+  std::map<std::tuple<int, int, int>, long> ids_;
+  std::string elements_;
+};
+
+bool run(const Scratch& folder, const std::string& job) {
+  const std::string at = folder.file("").string();
+  return std::system(fmt::format("cd '{}' && OMP_NUM_THREADS=1 ccx {} > {}.log 2>&1", at, job, job).c_str()) == 0;
+}
+
+/// The ten eigenvalues of a job.eig (*FREQUENCY, STORAGE=YES) in all their digits: after four integers, the last of
+/// them the count.
+std::vector<double> stored_eigenvalues(const std::string& bytes) {
+  std::int32_t count = 0;
+  if (bytes.size() < 16 + 80) return {};
+  std::memcpy(&count, bytes.data() + 12, sizeof count);
+  if (count != 10) return {};
+  std::vector<double> values(10);
+  std::memcpy(values.data(), bytes.data() + 16, 80);
+  return values;
+}
+
+}  // namespace
+
+/// The tolerance asked for is 1e-8 of the frequencies. The files carry 14 digits; CalculiX prints seven of each
+/// frequency, so the comparison takes the doubles of its .eig file.
+TEST(MatrixStorage, GivesCalculixsOwnFrequencies) {
+  if (std::system("command -v ccx > /dev/null") != 0) GTEST_SKIP() << "CalculiX (calculix-ccx) is not installed";
+  const Scratch folder;
+  const Block block;
+  folder.write("part.inp", block.deck("SOLVER=MATRIXSTORAGE"));
+  folder.write("own.inp", block.deck("STORAGE=YES"));
+  ASSERT_TRUE(run(folder, "part")) << fem::testing::contents(folder.file("part.log"));
+  ASSERT_TRUE(run(folder, "own")) << fem::testing::contents(folder.file("own.log"));
+  const std::vector<double> own = stored_eigenvalues(fem::testing::contents(folder.file("own.eig")));
+  ASSERT_EQ(own.size(), 10U) << "the .eig file is not laid out as in CalculiX 2.20";
+
+  const fem::MatrixData data = fem::read_calculix_matrices(folder.file("part").string(), block.positions);
+  ASSERT_EQ(data.rows.size(), 228U);  // 89 nodes, 13 of them held
+  EXPECT_EQ(data.positions.size(), 76U);
+  // M is singular (reduced integration), so M φ = μ K φ with λ = 1/μ
+  const auto whole = [](const fem::SparseMatrix& lower) {
+    return Eigen::MatrixXd(Eigen::MatrixXd(lower).selfadjointView<Eigen::Lower>());
+  };
+  const Eigen::VectorXd mu =
+      Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(whole(data.M), whole(data.K), Eigen::EigenvaluesOnly)
+          .eigenvalues();
+  double worst = 0.0;
+  for (int i = 0; i < 10; ++i)
+    worst = std::max(worst, std::abs(std::sqrt(1.0 / mu(mu.size() - 1 - i) / own[static_cast<std::size_t>(i)]) - 1.0));
+  RecordProperty("worst_error", fmt::format("{:.2e}", worst));
+  EXPECT_LT(worst, 1e-8);
+
+  // all of the mass: 7.8e-9 t/mm³ × 12 mm³, less what the held nodes carry
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(mu.size());
+  for (std::size_t i = 0; i < data.rows.size(); ++i)
+    if (data.rows[i].direction == 0) x(static_cast<Eigen::Index>(i)) = data.positions.at(data.rows[i].node).z() / 6.0;
+  // u = z/6 is in the space of the elements: ∫ρ u² dV = m/3, exactly integrated
+  EXPECT_NEAR(x.dot(whole(data.M) * x), 7.8e-9 * 12.0 / 3.0, 1e-10 * 7.8e-9);
+}
