@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <utility>
 
 #include "fem/error.hpp"
 #include "fem/formats/matrices/number_lines.hpp"
@@ -82,7 +83,7 @@ MatrixData read_abaqus_matrices(const std::filesystem::path& stiffness, const st
       const int row = index.at(line.row), column = index.at(line.column);
       if (row >= 0 && column >= 0) entries.emplace_back(row, column, line.value);
     }
-    return matrices::lower_triangle(name, file.string(), data.rows, entries, matrices::Stored::either);
+    return matrices::lower_triangle(name, file.string(), data.rows, std::move(entries), matrices::Stored::either);
   };
   data.K = matrix("the stiffness matrix", stiffness, k);
   data.M = matrix("the mass matrix", mass, m);

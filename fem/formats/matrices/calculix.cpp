@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <set>
+#include <utility>
 
 #include "fem/error.hpp"
 #include "fem/formats/matrices/number_lines.hpp"
@@ -67,7 +68,7 @@ SparseMatrix read_matrix(const std::string& name, const std::string& file, const
                        fmt::format("the diagonal entry of row {} ({}) is missing: the file is cut off", i + 1,
                                    matrices::to_string(rows[i])),
                        "Take the .sti, .mas and .dof of one run, and let it run to its end");
-  return matrices::lower_triangle(name, file, rows, entries, matrices::Stored::either);
+  return matrices::lower_triangle(name, file, rows, std::move(entries), matrices::Stored::either);
 }
 
 }  // namespace

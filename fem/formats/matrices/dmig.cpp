@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "fem/error.hpp"
 #include "fem/formats/matrices/interface_cards.hpp"
@@ -125,7 +126,8 @@ MatrixData from_direct_matrices(const std::string& file, InterfaceCards& cards, 
     std::vector<Entry> entries;
     for (const DirectMatrix::Term& term : matrix.terms)
       entries.emplace_back(index.at(term.row), index.at(term.column), term.value);
-    return lower_triangle(matrix.name, file, data.rows, entries, matrix.form == 6 ? Stored::either : Stored::both);
+    return lower_triangle(matrix.name, file, data.rows, std::move(entries),
+                          matrix.form == 6 ? Stored::either : Stored::both);
   };
   data.K = symmetric(k);
   data.M = symmetric(m);

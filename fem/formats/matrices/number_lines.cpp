@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <charconv>
 #include <cmath>
 
 #include "fem/error.hpp"
@@ -9,6 +11,9 @@
 #include "fem/formats/nastran/cards.hpp"
 
 namespace tenon::fem::matrices {
+namespace {
+bool separates(char c) { return c == ' ' || c == ',' || c == '\t'; }
+}  // namespace
 
 NumberLines::NumberLines(const std::filesystem::path& path) : file_(path.string()), bytes_(read_bytes(path)) {
   if (bytes_.empty()) throw InputError({file_}, "the file is empty", "Let the program that writes it run to its end");
@@ -33,14 +38,14 @@ bool NumberLines::next() {
 }
 
 std::string_view NumberLines::word(const char* what) {
-  constexpr std::string_view separators = " \t,";
-  const std::size_t first = left_.find_first_not_of(separators);
-  if (first == std::string_view::npos) {
+  const auto first = static_cast<std::size_t>(std::ranges::find_if_not(left_, separates) - left_.begin());
+  if (first == left_.size()) {
     column_ = line_.empty() ? 0 : static_cast<long>(line_.data() + line_.size() - start_) + 1;
     fail_expected("the end of the line", what);
   }
   left_.remove_prefix(first);
-  const std::string_view result = left_.substr(0, left_.find_first_of(separators));
+  const auto length = static_cast<std::size_t>(std::ranges::find_if(left_, separates) - left_.begin());
+  const std::string_view result = left_.substr(0, length);
   left_.remove_prefix(result.size());
   column_ = static_cast<long>(result.data() - start_) + 1;
   return result;
@@ -54,12 +59,15 @@ long NumberLines::integer(const char* what) {
 
 double NumberLines::real(const char* what) {
   const std::string_view text = word(what);
+  double plain = 0.0;  // the usual notation first: Fortran's needs a copy
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), plain);
+  if (error == std::errc{} && end == text.data() + text.size() && std::isfinite(plain)) return plain;
   if (const auto value = nastran::parse_real(text); value && std::isfinite(*value)) return *value;
   fail_expected(fmt::format("'{}'", text.substr(0, 40)), what);
 }
 
 void NumberLines::end_line() {
-  if (left_.find_first_not_of(" \t,") == std::string_view::npos) return;
+  if (std::ranges::all_of(left_, separates)) return;
   fail_expected(fmt::format("'{}'", word("").substr(0, 40)), "the end of the line");
 }
 

@@ -17,7 +17,7 @@ std::string to_string(const MatrixRow& row) {
 }
 
 SparseMatrix lower_triangle(const std::string& name, const std::string& file, const std::vector<MatrixRow>& rows,
-                            const std::vector<Entry>& entries, Stored stored) {
+                            std::vector<Entry> entries, Stored stored) {
   const auto label = [&](int i) { return to_string(rows[static_cast<std::size_t>(i)]); };
   const auto upper_half = [](const Entry& e) { return e.row() < e.col(); };
   const auto key = [](const Entry& e) { return std::pair(std::max(e.row(), e.col()), std::min(e.row(), e.col())); };
@@ -30,23 +30,22 @@ SparseMatrix lower_triangle(const std::string& name, const std::string& file, co
     }
 
   // the two entries of a pair side by side, the lower one first
-  std::vector<Entry> sorted = entries;
-  std::ranges::sort(sorted, [&](const Entry& a, const Entry& b) {
+  const auto before = [&](const Entry& a, const Entry& b) {
     return key(a) != key(b) ? key(a) < key(b) : upper_half(a) < upper_half(b);
-  });
-  std::vector<Entry> lower;
-  lower.reserve(sorted.size());
-  for (std::size_t i = 0; i < sorted.size();) {
-    const auto [row, column] = key(sorted[i]);
-    const bool pair = i + 1 < sorted.size() && key(sorted[i + 1]) == key(sorted[i]);
-    if ((pair && upper_half(sorted[i]) == upper_half(sorted[i + 1])) ||
-        (pair && i + 2 < sorted.size() && key(sorted[i + 2]) == key(sorted[i])))
+  };
+  if (!std::ranges::is_sorted(entries, before)) std::ranges::sort(entries, before);
+  std::size_t kept = 0;  // what is kept replaces what is done
+  for (std::size_t i = 0; i < entries.size();) {
+    const auto [row, column] = key(entries[i]);
+    const bool pair = i + 1 < entries.size() && key(entries[i + 1]) == key(entries[i]);
+    if ((pair && upper_half(entries[i]) == upper_half(entries[i + 1])) ||
+        (pair && i + 2 < entries.size() && key(entries[i + 2]) == key(entries[i])))
       throw InputError(
           {file},
-          fmt::format("the entry ({}, {}) of {} stands twice", label(sorted[i].row()), label(sorted[i].col()), name),
+          fmt::format("the entry ({}, {}) of {} stands twice", label(entries[i].row()), label(entries[i].col()), name),
           "Write the matrix with each entry once");
-    const double a = sorted[i].value();
-    const double b = pair ? sorted[i + 1].value() : row == column || stored == Stored::either ? a : 0.0;
+    const double a = entries[i].value();
+    const double b = pair ? entries[i + 1].value() : row == column || stored == Stored::either ? a : 0.0;
     const double scale = std::max(largest[static_cast<std::size_t>(row)], largest[static_cast<std::size_t>(column)]);
     if (!(std::abs(a - b) <= 1e-6 * scale))
       throw InputError(
@@ -55,12 +54,13 @@ SparseMatrix lower_triangle(const std::string& name, const std::string& file, co
                       label(row), label(column), a, b),
           "Only symmetric stiffness and mass matrices are read (no gyroscopic, follower or friction terms), whole or "
           "in the way their format defines");
-    if (const double mean = 0.5 * a + 0.5 * b; mean != 0.0) lower.emplace_back(row, column, mean);
+    if (const double mean = 0.5 * a + 0.5 * b; mean != 0.0) entries[kept++] = {row, column, mean};
     i += pair ? 2 : 1;
   }
   const auto n = static_cast<Eigen::Index>(rows.size());
   SparseMatrix result(n, n);
-  result.setFromTriplets(lower.begin(), lower.end());
+  entries.resize(kept);
+  result.setFromTriplets(entries.begin(), entries.end());
   return result;
 }
 

@@ -21,7 +21,7 @@ enum class Stored { both, either };
 /// 1e-6 of the larger row maximum (single precision): nothing unsymmetric is made symmetric.
 /// @param name  of the matrix and  @param file  for messages
 SparseMatrix lower_triangle(const std::string& name, const std::string& file, const std::vector<MatrixRow>& rows,
-                            const std::vector<Entry>& entries, Stored stored);
+                            std::vector<Entry> entries, Stored stored);
 
 /// R A Rᵀ of a symmetric A given by its lower triangle, again as lower triangle.
 SparseMatrix turned(const SparseMatrix& R, const SparseMatrix& lower);

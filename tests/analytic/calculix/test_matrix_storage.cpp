@@ -10,6 +10,7 @@
 #include <map>
 #include <tuple>
 
+#include "fem/error.hpp"
 #include "fem/formats/matrices/calculix.hpp"
 #include "tests/unit/fem/formats/scratch.hpp"
 
@@ -62,6 +63,8 @@ class Block {
   std::string elements_;
 };
 
+bool installed() { return std::system("command -v ccx > /dev/null") == 0; }
+
 bool run(const Scratch& folder, const std::string& job) {
   const std::string at = folder.file("").string();
   return std::system(fmt::format("cd '{}' && OMP_NUM_THREADS=1 ccx {} > {}.log 2>&1", at, job, job).c_str()) == 0;
@@ -84,7 +87,7 @@ std::vector<double> stored_eigenvalues(const std::string& bytes) {
 /// The tolerance asked for is 1e-8 of the frequencies. The files carry 14 digits; CalculiX prints seven of each
 /// frequency, so the comparison takes the doubles of its .eig file.
 TEST(MatrixStorage, GivesCalculixsOwnFrequencies) {
-  if (std::system("command -v ccx > /dev/null") != 0) GTEST_SKIP() << "CalculiX (calculix-ccx) is not installed";
+  if (!installed()) GTEST_SKIP() << "CalculiX (calculix-ccx) is not installed";
   const Scratch folder;
   const Block block;
   folder.write("part.inp", block.deck("SOLVER=MATRIXSTORAGE"));
@@ -116,4 +119,22 @@ TEST(MatrixStorage, GivesCalculixsOwnFrequencies) {
     if (data.rows[i].direction == 0) x(static_cast<Eigen::Index>(i)) = data.positions.at(data.rows[i].node).z() / 6.0;
   // u = z/6 is in the space of the elements: ∫ρ u² dV = m/3, exactly integrated
   EXPECT_NEAR(x.dot(whole(data.M) * x), 7.8e-9 * 12.0 / 3.0, 1e-10 * 7.8e-9);
+}
+
+/// CalculiX makes solids of beams and labels their rows by the nodes of the beam.
+TEST(MatrixStorage, OfBeamsIsRefused) {
+  if (!installed()) GTEST_SKIP() << "CalculiX (calculix-ccx) is not installed";
+  const Scratch folder;
+  folder.write("beam.inp",
+               "*NODE, NSET=NALL\n1,0.,0.,0.\n2,.5,0.,0.\n3,1.,0.,0.\n*ELEMENT, TYPE=B32R, ELSET=EALL\n1,1,2,3\n"
+               "*MATERIAL, NAME=STEEL\n*ELASTIC\n210000.,.3\n*DENSITY\n7.8E-9\n"
+               "*BEAM SECTION, ELSET=EALL, MATERIAL=STEEL, SECTION=RECT\n.1,.2\n0.,0.,1.\n*BOUNDARY\n1,1,6\n"
+               "*STEP\n*FREQUENCY, SOLVER=MATRIXSTORAGE\n3\n*END STEP\n");
+  ASSERT_TRUE(run(folder, "beam")) << fem::testing::contents(folder.file("beam.log"));
+  try {
+    fem::read_calculix_matrices(folder.file("beam").string());
+    FAIL() << "read without an error";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("stands twice: CalculiX expands beams and shells to solids"));
+  }
 }

@@ -17,7 +17,7 @@ inline std::filesystem::path shared_deck(const std::string& name) {
   return shared / "data" / "nastran-cb" / name;
 }
 
-/// Tests on those decks. They are the one thing the project cannot ship: the only tests that skip.
+/// Tests on those decks, which the project cannot ship: they skip without them.
 class NastranDecks : public ::testing::Test {
  protected:
   void SetUp() override {
