@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 
 #include "fem/error.hpp"
 #include "fem/formats/file_bytes.hpp"
@@ -59,10 +57,7 @@ long NumberLines::integer(const char* what) {
 
 double NumberLines::real(const char* what) {
   const std::string_view text = word(what);
-  double plain = 0.0;  // the usual notation first: Fortran's needs a copy
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), plain);
-  if (error == std::errc{} && end == text.data() + text.size() && std::isfinite(plain)) return plain;
-  if (const auto value = nastran::parse_real(text); value && std::isfinite(*value)) return *value;
+  if (const auto value = nastran::parse_real(text)) return *value;
   fail_expected(fmt::format("'{}'", text.substr(0, 40)), what);
 }
 

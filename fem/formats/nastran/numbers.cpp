@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <string>
 #include <system_error>
 
@@ -34,6 +35,11 @@ std::string upper(std::string_view text) {
 
 // [sign] digits [. digits] [ (E|D) [sign] digits | sign digits ], with at least one digit in the mantissa
 std::optional<double> parse_real(std::string_view text) {
+  double plain = 0.0;  // the usual notation needs no copy; "nan" and "inf" are no numbers
+  if (const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), plain);
+      error == std::errc{} && end == text.data() + text.size() && std::isfinite(plain))
+    return plain;
+
   std::size_t i = !text.empty() && sign(text[0]) ? 1 : 0;
   const std::size_t start = i;
   i = skip_digits(text, i);
