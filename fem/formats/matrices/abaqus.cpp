@@ -8,6 +8,7 @@
 #include "fem/error.hpp"
 #include "fem/formats/matrices/number_lines.hpp"
 #include "fem/formats/matrices/symmetric.hpp"
+#include "fem/formats/nastran/cards.hpp"
 
 namespace tenon::fem {
 namespace {
@@ -88,6 +89,32 @@ MatrixData read_abaqus_matrices(const std::filesystem::path& stiffness, const st
   data.K = matrix("the stiffness matrix", stiffness, k);
   data.M = matrix("the mass matrix", mass, m);
   return data;
+}
+
+MatrixData read_abaqus_matrices(const std::string& job) {
+  namespace fs = std::filesystem;
+  const fs::path path(job), folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  const std::string begin = path.filename().string() + "_STIF", end = ".mtx";
+  std::vector<std::pair<fs::path, fs::path>> pairs;
+  std::error_code error;
+  for (fs::directory_iterator entries(folder, error); !error && entries != fs::directory_iterator();
+       entries.increment(error)) {
+    const std::string name = entries->path().filename().string();
+    if (name.size() <= begin.size() + end.size() || !name.starts_with(begin) || !name.ends_with(end)) continue;
+    const std::string step = name.substr(begin.size());
+    fs::path mass = path.parent_path() / (path.filename().string() + "_MASS" + step);
+    std::error_code ignored;
+    if (nastran::parse_integer(std::string_view(step).substr(0, step.size() - end.size())) && fs::exists(mass, ignored))
+      pairs.emplace_back(path.parent_path() / name, std::move(mass));
+  }
+  if (pairs.size() != 1)
+    throw InputError({job},
+                     pairs.empty()
+                         ? "found no pair of files " + begin + "n.mtx and " + path.filename().string() + "_MASSn.mtx"
+                         : fmt::format("found the matrices of {} steps, among them {} and {}", pairs.size(),
+                                       pairs[0].first.string(), pairs[1].first.string()),
+                     "Name the two .mtx files");
+  return read_abaqus_matrices(pairs[0].first, pairs[0].second);
 }
 
 }  // namespace tenon::fem

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "fem/formats/matrices/matrix_data.hpp"
 
@@ -14,5 +15,9 @@ namespace tenon::fem {
 /// (7 warping, 8 pressure, 11 temperature). Source: *MATRIX INPUT, *MATRIX OUTPUT and "Generating matrices" of the
 /// Abaqus manuals.
 MatrixData read_abaqus_matrices(const std::filesystem::path& stiffness, const std::filesystem::path& mass);
+
+/// The same from the names that Abaqus gives: job_STIFn.mtx and job_MASSn.mtx of the one step n that has both.
+/// Throws InputError when there is none, or more than one.
+MatrixData read_abaqus_matrices(const std::string& job);
 
 }  // namespace tenon::fem

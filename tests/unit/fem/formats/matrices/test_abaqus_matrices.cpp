@@ -58,3 +58,17 @@ TEST(AbaqusMatrices, FaultsAreNamedByLineAndColumn) {
   EXPECT_THAT(refused("1,1,1,1,2."), HasSubstr("no line end"));
   EXPECT_THAT(refused(stiffness, "5,1,5,1,inf\n"), HasSubstr("m.mtx:1:9: found 'inf'"));
 }
+
+TEST(AbaqusMatrices, AreFoundByTheJob) {
+  const Scratch folder;
+  const std::string job = folder.file("frame").string();
+  const auto refused_job = [&] { return tenon::tests::refusal([&] { read_abaqus_matrices(job); }); };
+  EXPECT_THAT(refused_job(), HasSubstr("found no pair of files frame_STIFn.mtx and frame_MASSn.mtx"));
+  folder.write("frame_STIF2.mtx", stiffness);
+  folder.write("frame_MASS1.mtx", mass);
+  EXPECT_THAT(refused_job(), HasSubstr("found no pair"));
+  folder.write("frame_MASS2.mtx", mass);
+  EXPECT_EQ(read_abaqus_matrices(job).rows.size(), 2U);
+  folder.write("frame_STIF1.mtx", stiffness);
+  EXPECT_THAT(refused_job(), HasSubstr("found the matrices of 2 steps"));
+}
