@@ -11,6 +11,8 @@ namespace tenon::fem::matrices {
 InterfaceCards::InterfaceCards(const std::filesystem::path& path) : text(nastran::read_text(path, true)) {
   for (const nastran::CardSpan& span : text.cards) draft.cards[span.name].emplace_back(text, span);
   nastran::read_grids(draft);
+  for (const unsigned held : draft.permanent_spc)
+    if (held != 0) draft.losses.add("GRID PS", "supports are no part of the matrices: hold these dofs in the model");
   for (const nastran::Card& card : draft.take("SPOINT"))
     for (const nastran::Range& range : nastran::Draft::ranges(card, 1)) draft.scalars.points.push_back(range);
   for (const nastran::Card& card : draft.take("PARAM")) {

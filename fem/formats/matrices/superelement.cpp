@@ -63,7 +63,7 @@ std::vector<Connection> read_extrn(nastran::Draft& draft, long limit) {
                         "to which point cannot be told",
                         first, result.all.back().own),
             "Let Nastran write EXTRN (EXTSEOUT)");
-      for (long id = first; id <= last; ++id) result.add(card, field, {id, id, components});
+      for (long i = 0; i <= last - first; ++i) result.add(card, field, {first + i, first + i, components});
       field += range ? 4 : 2;
     }
   return result.all;
@@ -112,12 +112,13 @@ std::vector<Connection> connections(InterfaceCards& cards, const fs::path& file,
     if (pairs.empty()) {  // every point of the file is its interface
       std::set<long> ids(cards.draft.sorted_grids.begin(), cards.draft.sorted_grids.end());
       for (const nastran::Range& range : cards.draft.scalars.points) {
-        if (range.last - range.first >= rows)
-          throw InputError({file.string()},
-                           fmt::format("SPOINT gives {} scalar points, but the matrices have {} rows",
-                                       range.last - range.first + 1, rows),
-                           "Take the description and the matrices of one run");
-        for (long id = range.first; id <= range.last; ++id) ids.insert(id);
+        const long more = range.last - range.first;  // besides the first one
+        if (more >= rows || std::ssize(ids) + more >= rows)
+          throw InputError(
+              {file.string()},
+              fmt::format("SPOINT names {} to {}, but the matrices have {} rows only", range.first, range.last, rows),
+              "Take the description and the matrices of one run");
+        for (long i = 0; i <= more; ++i) ids.insert(range.first + i);
       }
       for (const long id : ids) named.push_back({id, id, all_six});
     }
@@ -133,7 +134,11 @@ std::vector<Connection> connections(InterfaceCards& cards, const fs::path& file,
 std::vector<MatrixRow> rows_of(const std::vector<Connection>& points, const InterfaceCards& cards,
                                const std::string& file) {
   std::vector<MatrixRow> rows;
+  std::set<long> seen;
   for (const Connection& point : points) {
+    if (!seen.insert(point.assembly).second)
+      throw InputError({file}, fmt::format("point {} stands twice in the interface", point.assembly),
+                       "Name each point of the interface once");
     const bool grid = cards.is_grid(point.assembly);
     if (!grid && !cards.is_scalar(point.assembly))
       throw InputError(

@@ -141,6 +141,15 @@ TEST(Superelement, ThePunchFileAloneUsesItsOwnNumbers) {
   EXPECT_EQ(data.positions.at(4), Vec3(1.0, 2.0, 3.0));
 }
 
+TEST(Superelement, PermanentSupportsAreLosses) {
+  const Part part;
+  std::string text = description("0");
+  text.replace(text.find("3.,0\n"), 4, "3.,0,12");
+  const std::vector<Loss> losses = Files(text, part.K, part.M).read().losses;
+  ASSERT_EQ(losses.size(), 1U);
+  EXPECT_EQ(losses[0].name, "GRID PS");
+}
+
 TEST(Superelement, DampingAndRecoveryAreLosses) {
   const Part part;
   const Eigen::MatrixXd one = Eigen::MatrixXd::Ones(1, 1);
@@ -172,7 +181,13 @@ TEST(Superelement, WhatDoesNotBelongTogetherIsRefused) {
   EXPECT_THAT(Files("GRID,4\nGRID,9\nEXTRN,9,123456,4,123456\n", smaller, smaller).refused(),
               HasSubstr("EXTRN names 4 behind 9"));
   EXPECT_THAT(Files("GRID,4\nSPOINT,100,THRU,2000000000\n", smaller, smaller).refused(),
-              HasSubstr("SPOINT gives 1999999901 scalar points, but the matrices have 12 rows"));
+              HasSubstr("SPOINT names 100 to 2000000000, but the matrices have 12 rows only"));
+  EXPECT_THAT(Files("GRID,4\nSPOINT,10,THRU,20\nSPOINT,30,THRU,40\n", smaller, smaller).refused(),
+              HasSubstr("SPOINT names 30 to 40"));
+  EXPECT_THAT(Files("GRID,4\nGRID,9\nSECONCT,7,0\n,4,4,5,4\n", smaller, smaller).refused(),
+              HasSubstr("point 4 stands twice in the interface"));
+  EXPECT_THAT(Files("SPOINT,9\nEXTRN,9223372036854775807,0\n", smaller, smaller).refused(),
+              HasSubstr("point 9223372036854775807 of the interface is neither"));
   EXPECT_THAT(Files("GRID,4\nSPOINT,9\nEXTRN,4,123456,9,THRU,2000000000,0\n", smaller, smaller).refused(),
               HasSubstr("more points than the 12 rows"));
 
