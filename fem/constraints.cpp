@@ -82,10 +82,16 @@ class Elimination {
     return found == expression_.end() ? nullptr : &found->second;
   }
 
-  /// True when the row said something new.
-  bool add(const Model& model, const Row& row) {
+  /// True when the row said something new; `notes` gets what else there is to say.
+  bool add(const Model& model, const Row& row, std::vector<ConstraintNote>& notes) {
+    const auto note = [&](ConstraintNote::Kind kind, int dof, double figure = 0.0) {
+      notes.push_back({kind, fmt::format("{} {}", row.kind, row.id), {dof / 6, dof % 6}, figure});
+    };
     const std::vector<Term> terms = reduced(row.terms);
-    if (terms.empty()) return false;
+    if (terms.empty()) {
+      if (row.dependent >= 0) note(ConstraintNote::Kind::redundant, row.dependent);
+      return false;
+    }
     double largest = 0.0;
     for (const Term& t : terms)
       if (!kept_.contains(t.dof)) largest = std::max(largest, std::abs(t.c));
@@ -102,12 +108,31 @@ class Elimination {
       }
       if (pivot == nullptr || std::abs(t.c) > std::abs(pivot->c)) pivot = &t;
     }
+    double size = 0.0;  // of the row as it was
+    int moving = 0;
+    for (const Term& t : row.terms) {
+      size = std::max(size, std::abs(t.c));
+      if (moves(t.dof)) ++moving;
+    }
+    if (std::abs(pivot->c) < digits_of_coefficients * size)
+      note(ConstraintNote::Kind::ill_determined, pivot->dof, std::abs(pivot->c) / size);
+    else if (terms.size() == 1 && moving > 1)
+      note(ConstraintNote::Kind::forced_zero, pivot->dof);
+    else if (row.dependent >= 0 && expression(row.dependent) != nullptr)
+      note(ConstraintNote::Kind::dependent_twice, row.dependent);
     give_up(pivot->dof, pivot->c, terms);
     return true;
   }
 
  private:
   enum State : char { free, held, dependent };
+  static constexpr double digits_of_coefficients = 1e-6;  ///< that eight-column fields keep at least
+
+  /// Neither held nor made zero by rows before.
+  bool moves(int dof) const {
+    const std::vector<Term>* e = expression(dof);
+    return !is_held(dof) && (e == nullptr || !e->empty());
+  }
 
   /// The terms with every dependent dof replaced and every held one dropped, equal dofs summed, round-off dropped.
   std::vector<Term> reduced(const std::vector<Term>& terms) const {
@@ -227,7 +252,7 @@ DofMap eliminate_constraints(const Model& model, const std::vector<char>& used) 
   DofMap map;
   for (const Row& row : rows_of(model)) {
     for (const Term& t : row.terms) named[static_cast<std::size_t>(t.dof)] = 1;
-    if (!elimination.add(model, row)) ++map.redundant_constraints;
+    if (!elimination.add(model, row, map.notes)) ++map.redundant_constraints;
   }
 
   std::vector<int> free_index(static_cast<std::size_t>(n_full), -1);

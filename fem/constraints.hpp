@@ -11,7 +11,8 @@ namespace tenon::fem {
 /// cycles of links resolve themselves. An RBE2 or MPC row gives up its dependent dof where it still can, else its
 /// largest coefficient; port dofs are never given up. Rows that say nothing new are counted as redundant. `used[i]`
 /// tells whether an element touches full dof i (6·node + direction); dofs neither used nor named in a constraint are
-/// left out. Throws ModelError when a row leaves only port dofs (a port tied to ground or to another port).
+/// left out. What deserves a look stands in DofMap::notes. Throws ModelError when a row leaves only port dofs (a port
+/// tied to ground or to another port).
 DofMap eliminate_constraints(const Model& model, const std::vector<char>& used);
 
 /// The 6×(3..6 per node) rows of an averaging link: u_ref = A u, the weighted least-squares rigid motion of its nodes.

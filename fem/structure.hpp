@@ -11,6 +11,20 @@ namespace tenon::fem {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
+/// What the elimination of constraints met beside its work; nothing here is an error by itself.
+struct ConstraintNote {
+  enum class Kind {
+    redundant,        ///< the row says nothing that rows before it have not said
+    dependent_twice,  ///< its dependent dof had been given up before, so another one was
+    forced_zero,      ///< rows together leave a dof no motion although no support holds it
+    ill_determined    ///< what it adds to the rows before is at round-off of the coefficients: `figure` of the row
+  };
+  Kind kind = Kind::redundant;
+  std::string link;  ///< "rigid link 7"
+  Dof dof;           ///< that the row would give up, or that it forces to zero
+  double figure = 0.0;
+};
+
 /// Where each of the 6 dofs a node went: free (its own row of K and M), held, unused (no stiffness, no mass), or a
 /// linear combination of free ones: u_full = T u_free, T kept row by row.
 struct DofMap {
@@ -24,6 +38,7 @@ struct DofMap {
   std::vector<std::string> names;  ///< "node 45 rz", one a free dof
   std::vector<Dof> unused;         ///< dofs dropped since nothing gives them stiffness or mass
   int redundant_constraints = 0;
+  std::vector<ConstraintNote> notes;  ///< on constraints, in their order
 
   int n_free() const { return static_cast<int>(free.size()); }
   int n_nodes() const { return static_cast<int>(start.size() / 6); }

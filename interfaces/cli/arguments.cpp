@@ -41,10 +41,13 @@ void add_init(CLI::App& program, int& status) {
 
 void add_check(CLI::App& program, int& status) {
   const auto options = std::make_shared<CheckOptions>();
-  CLI::App* command = program.add_subcommand("check", "read and plan a scene: mass, rigid motions, grounding, ports");
-  command->add_option("SCENE", options->scene, "a scene (.yaml, .json)")->required();
+  CLI::App* command =
+      program.add_subcommand("check", "check a scene, mesh or deck: mass, grounding, singular dofs, elements, ports");
+  command->add_option("INPUT", options->input, "a scene (.yaml, .json), a mesh or a Nastran deck")->required();
+  command->add_option("--allow", options->allow,
+                      "a card of a deck that may be read past although it carries stiffness or mass");
   command->add_flag("--json", options->json, "one JSON object");
-  command->footer("Example: tenon check scene.yaml");
+  command->footer("Examples: tenon check scene.yaml\n          tenon check panel.msh");
   command->callback([options, &status] { status = run(*options); });
 }
 

@@ -5,73 +5,47 @@
 #include "assembly/build.hpp"
 #include "assembly/second_order.hpp"
 #include "fem/structure.hpp"
-#include "interfaces/cli/commands.hpp"
+#include "interfaces/cli/check_mesh.hpp"
+#include "interfaces/cli/findings.hpp"
 #include "interfaces/cli/input.hpp"
 #include "interfaces/cli/output.hpp"
 
 namespace tenon::cli {
 namespace {
 
-/// One thing that was looked at.
-struct Finding {
-  std::string subject, what;
-  bool good = true;
-};
-
-/// Mass by two routes may differ by the curvature that flat cells cut off, never by more than round-off here.
-constexpr double mass_limit = 1e-9;
-/// ‖K R‖ relative to ‖K‖ ‖R‖: rigid motions must cost no energy.
-constexpr double rigid_limit = 1e-9;
-
 struct BodyCheck {
   std::string name, kind;
   int nodes = 0, elements = 0, dofs = 0;
+  bool sound = true;  ///< no element that the assembler would refuse
+  bool held = false;  ///< by `fix`: cannot be reduced
   fem::MassProperties mass;
   std::vector<std::string> losses;
 };
 
-double relative_rigid_force(const fem::Structure& structure) {
-  const Eigen::MatrixXd R = fem::rigid_motions(structure, structure.nodes.front());
-  const Eigen::MatrixXd F = structure.K.selfadjointView<Eigen::Lower>() * R;
-  double worst = 0.0;
-  const double scale = structure.K.norm();
-  for (Eigen::Index j = 0; j < R.cols(); ++j)
-    if (const double r = R.col(j).norm(); r > 0.0 && scale > 0.0)
-      worst = std::max(worst, F.col(j).norm() / (scale * r));
-  return worst;
-}
-
-BodyCheck check_fe(const assembly::Scene& scene, const assembly::SceneBody& body, std::vector<Finding>& findings) {
+BodyCheck check_fe(const assembly::Scene& scene, const assembly::SceneBody& body, std::vector<Subjected>& findings) {
   const fem::Model model = assembly::build_model(body);
-  const fem::Structure structure = fem::assemble(model);
-  BodyCheck check{.name = body.name,
-                  .kind = "fe",
-                  .nodes = static_cast<int>(model.nodes.size()),
-                  .elements = static_cast<int>(model.elements.size()),
-                  .dofs = structure.n(),
-                  .mass = fem::mass_properties(structure),
-                  .losses = loss_lines(model.losses)};
+  fem::Structure structure;
+  for (fem::Finding& finding : fem::check_model(model, {}, &structure))
+    findings.push_back({body.name, std::move(finding)});
+  const bool sound = structure.n() > 0;
+  const fem::MassProperties mass = sound ? fem::mass_properties(structure) : fem::geometric_mass_properties(model);
   if (!model.supports.empty()) {
-    findings.push_back({body.name,
-                        fmt::format("{} dofs are held to the inertial frame by `fix`{}", model.supports.size(),
-                                    scene.joints.empty() ? ": solve with `tenon modes --full`"
-                                                         : ", so it cannot be reduced and joined"),
-                        scene.joints.empty()});
-    return check;
+    findings.push_back(remark(body.name,
+                              fmt::format("{} dofs are held to the inertial frame by `fix`{}", model.supports.size(),
+                                          scene.joints.empty() ? ": solve with `tenon modes --full`"
+                                                               : ", so it cannot be reduced and joined"),
+                              scene.joints.empty()));
+    if (sound) structure = fem::assemble(model);
   }
-  const fem::MassProperties geometry = fem::geometric_mass_properties(model);
-  const double gap = std::abs(check.mass.mass - geometry.mass) / std::max(geometry.mass, 1e-300);
-  findings.push_back({body.name, fmt::format("mass of M against geometry: {:.1e} apart", gap), gap <= mass_limit});
-  const double force = relative_rigid_force(structure);
-  findings.push_back({body.name, fmt::format("six rigid motions cost no energy: |K R| / |K| |R| = {:.1e}", force),
-                      force <= rigid_limit});
-  if (!structure.dofs.unused.empty())
-    findings.push_back(
-        {body.name, fmt::format("{} dofs without stiffness and mass were dropped", structure.dofs.unused.size())});
-  if (structure.dofs.redundant_constraints > 0)
-    findings.push_back(
-        {body.name, fmt::format("{} constraints say nothing new", structure.dofs.redundant_constraints)});
-  return check;
+  return {.name = body.name,
+          .kind = "fe",
+          .nodes = static_cast<int>(model.nodes.size()),
+          .elements = static_cast<int>(model.elements.size()),
+          .dofs = structure.n(),
+          .sound = sound,
+          .held = !model.supports.empty(),
+          .mass = mass,
+          .losses = loss_lines(model.losses)};
 }
 
 /// The scene with every body taken as rigid: joints, grounding and mass, without an eigen-solve.
@@ -98,22 +72,25 @@ BodyCheck check_reduced(const reduction::ReducedBody& body, const char* kind) {
 struct Report {
   assembly::Plan plan;
   std::vector<BodyCheck> bodies;
-  std::vector<Finding> findings;
+  std::vector<Subjected> findings;
   int rigid_motions = 0, loops = 0;
 };
 
 Report examine(const assembly::Scene& scene) {
   Report report{.plan = assembly::plan(scene), .bodies = {}, .findings = {}};
-  bool joinable = true;
+  bool joinable = true, assembled = true, held = false;
   for (const assembly::SceneBody& body : scene.bodies)
     if (body.has_model()) {
       report.bodies.push_back(check_fe(scene, body, report.findings));
       joinable = joinable && !body.ports.empty();
+      held = held || report.bodies.back().held;
+      assembled = assembled && report.bodies.back().sound;
     } else {
       report.bodies.push_back({.name = body.name, .kind = "", .mass = {}, .losses = {}});
     }
+  if (!assembled || held) return report;
   if (!joinable && scene.bodies.size() == 1) {
-    report.findings.push_back({scene.bodies.front().name, "has no port: it can be solved alone, not joined"});
+    report.findings.push_back(remark(scene.bodies.front().name, "has no port: it can be solved alone, not joined"));
     return report;
   }
   const assembly::Network network = rigid_network(scene, report.plan);
@@ -127,17 +104,13 @@ Report examine(const assembly::Scene& scene) {
   report.loops = static_cast<int>(system.placement.closing_joints.size());
   const auto roots = std::count(system.placement.tree_joint.begin(), system.placement.tree_joint.end(), -1);
   report.findings.push_back(
-      {"scene", fmt::format("{} rigid motion{}", report.rigid_motions, report.rigid_motions == 1 ? "" : "s")});
+      remark("scene", fmt::format("{} rigid motion{}", report.rigid_motions, report.rigid_motions == 1 ? "" : "s")));
   if (roots > 1 && scene.ground.empty())
-    report.findings.push_back({"scene", fmt::format("falls into {} parts that no joint connects", roots), false});
+    report.findings.push_back(remark("scene", fmt::format("falls into {} parts that no joint connects", roots), false));
   if (report.loops > 0)
-    report.findings.push_back({"scene", fmt::format("{} joint{} close{} loops", report.loops,
-                                                    report.loops == 1 ? "" : "s", report.loops == 1 ? "s" : "")});
+    report.findings.push_back(remark("scene", fmt::format("{} joint{} close{} loops", report.loops,
+                                                          report.loops == 1 ? "" : "s", report.loops == 1 ? "s" : "")));
   return report;
-}
-
-bool good(const Report& report) {
-  return std::all_of(report.findings.begin(), report.findings.end(), [](const Finding& f) { return f.good; });
 }
 
 Json to_json(const assembly::Scene& scene, const Report& report) {
@@ -158,10 +131,8 @@ Json to_json(const assembly::Scene& scene, const Report& report) {
   object["rigid_motions"] = report.rigid_motions;
   object["loops"] = report.loops;
   object["notes"] = report.plan.notes;
-  object["checks"] = Json::array();
-  for (const Finding& finding : report.findings)
-    object["checks"].push_back({{"subject", finding.subject}, {"what", finding.what}, {"good", finding.good}});
-  object["good"] = good(report);
+  object["checks"] = to_json(report.findings);
+  object["good"] = good(report.findings);
   return object;
 }
 
@@ -181,8 +152,7 @@ void print_people(const assembly::Scene& scene, const Report& report) {
     print(wrapped(fmt::format("{}: keeps {}; drops {}; because {}.", plan.body, plan.kept, plan.dropped, plan.why), 4));
   for (const std::string& note : report.plan.notes) print(wrapped(note, 4));
   print("\n  Checks");
-  for (const Finding& finding : report.findings)
-    print(wrapped(fmt::format("{} {}: {}", finding.good ? "ok    " : "FAILED", finding.subject, finding.what), 4));
+  print_people(report.findings);
   for (const BodyCheck& body : report.bodies)
     for (const std::string& line : body.losses) print(wrapped(fmt::format("read past in {}: {}", body.name, line), 4));
 }
@@ -190,13 +160,15 @@ void print_people(const assembly::Scene& scene, const Report& report) {
 }  // namespace
 
 int run(const CheckOptions& options) {
-  const assembly::Scene scene = assembly::read_scene(options.scene);
+  if (const InputKind kind = kind_of(options.input); kind != InputKind::scene)
+    return check_mesh(options, kind == InputKind::deck);
+  const assembly::Scene scene = assembly::read_scene(options.input);
   const Report report = examine(scene);
   if (options.json)
     print(to_json(scene, report));
   else
     print_people(scene, report);
-  return good(report) ? done : check_failed;
+  return good(report.findings) ? done : check_failed;
 }
 
 }  // namespace tenon::cli

@@ -21,9 +21,10 @@ struct InitOptions {
 };
 int run(const InitOptions& options);
 
-/// Reads and plans a scene.
+/// Reads and plans a scene and checks its bodies; or checks a mesh or deck alone.
 struct CheckOptions {
-  std::filesystem::path scene;
+  std::filesystem::path input;
+  std::vector<std::string> allow;
   bool json = false;
 };
 int run(const CheckOptions& options);

@@ -1,0 +1,204 @@
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "fem/checks/cells.hpp"
+
+namespace tenon::fem {
+namespace {
+
+using checks::Places;
+
+constexpr std::array<const char*, 6> motion_names{"translation x", "translation y", "translation z",
+                                                  "rotation x",    "rotation y",    "rotation z"};
+
+double diagonal_of(const Model& model) { return checks::cells_of(model).diagonal; }
+
+Vec3 centre_of(const Structure& s) {
+  Vec3 centre = Vec3::Zero();
+  for (const Vec3& x : s.nodes) centre += x / static_cast<double>(s.nodes.size());
+  return centre;
+}
+
+void check_mass(const Model& model, const Structure& s, const CheckLimits& limits, std::vector<Finding>& findings) {
+  const MassProperties a = mass_properties(s), b = geometric_mass_properties(model);
+  if (!(b.mass > 0.0) && !(a.mass > 0.0)) {
+    findings.push_back({.severity = Severity::warning,
+                        .check = "mass",
+                        .what = "the model has no mass",
+                        .count = 1,
+                        .value = 0.0,
+                        .cure = "Give its materials a density, or masses to its nodes"});
+    return;
+  }
+  const double size = std::max(diagonal_of(model), 1e-300);
+  const auto look = [&](const char* check, const char* what, double gap, double limit, Severity severity) {
+    findings.push_back({.severity = gap <= limit ? Severity::note : severity,
+                        .check = check,
+                        .what = fmt::format("{}: {:.1e} apart", what, gap),
+                        .count = gap <= limit ? 0 : 1,
+                        .value = gap,
+                        .limit = limit,
+                        .cure = "Look for dofs that are dropped, held or tied although they carry mass"});
+  };
+  look("mass", "mass of M against geometry", std::abs(a.mass - b.mass) / std::max(a.mass, b.mass), limits.mass,
+       Severity::error);
+  look("centre", "centre of mass of M against geometry, over the size of the model",
+       (a.centre - b.centre).norm() / size, limits.mass, Severity::error);
+  const double inertia = std::max(a.inertia.norm(), b.inertia.norm());
+  look("inertia", "inertia of M against geometry", inertia > 0.0 ? (a.inertia - b.inertia).norm() / inertia : 0.0,
+       limits.inertia, Severity::warning);
+  // A rigid body weighs the same in every direction.
+  const Mat6X R = rigid_motions(s, a.centre).transpose();
+  std::array<double, 3> m{};
+  for (int d = 0; d < 3; ++d) {
+    const Eigen::VectorXd r = R.row(d).transpose();
+    m[static_cast<std::size_t>(d)] = r.dot(s.M.selfadjointView<Eigen::Lower>() * r);
+  }
+  const auto [least, most] = std::minmax_element(m.begin(), m.end());
+  if (*most - *least > limits.mass * *most)
+    findings.push_back({.severity = Severity::error,
+                        .check = "mass_by_direction",
+                        .what = fmt::format("the mass is {:.6g} in x, {:.6g} in y, {:.6g} in z", m[0], m[1], m[2]),
+                        .count = 1,
+                        .value = (*most - *least) / *most,
+                        .limit = limits.mass,
+                        .cure = "Look for masses on scalar points or on dofs that are held or dropped"});
+}
+
+/// Row by row: F_i = Σ K_ij R_j is what holds dof i during a rigid motion; round-off leaves ε Σ √(K_ii K_jj) |R_j|, the
+/// bound of the terms of a positive matrix.
+void check_grounding(const Structure& s, const CheckLimits& limits, std::vector<Finding>& findings) {
+  const Eigen::MatrixXd R = rigid_motions(s, centre_of(s));
+  const Eigen::VectorXd root = s.K.diagonal().cwiseAbs().cwiseSqrt();
+  Eigen::MatrixXd F = Eigen::MatrixXd::Zero(s.n(), 6), size = F;
+  for (int j = 0; j < s.K.outerSize(); ++j)
+    for (SparseMatrix::InnerIterator it(s.K, j); it; ++it) {
+      const Eigen::Index i = it.row();
+      F.row(i) += it.value() * R.row(j);
+      size.row(i) += root(i) * root(j) * R.row(j).cwiseAbs();
+      if (i == j) continue;
+      F.row(j) += it.value() * R.row(i);
+      size.row(j) += root(i) * root(j) * R.row(i).cwiseAbs();
+    }
+  Places places;
+  double worst = 0.0;
+  for (Eigen::Index i = 0; i < F.rows(); ++i) {
+    double ratio = 0.0;
+    Eigen::Index motion = 0;
+    for (Eigen::Index j = 0; j < 6; ++j)
+      if (size(i, j) > 0.0 && std::abs(F(i, j)) / size(i, j) > ratio) {
+        ratio = std::abs(F(i, j)) / size(i, j);
+        motion = j;
+      }
+    worst = std::max(worst, ratio);
+    if (ratio > limits.grounding)
+      places.add(ratio, fmt::format("{} ({:.3g} per unit {})", s.dofs.names[static_cast<std::size_t>(i)], F(i, motion),
+                                    motion_names[static_cast<std::size_t>(motion)]));
+  }
+  if (places.empty()) {
+    findings.push_back(
+        {.check = "grounding",
+         .what = fmt::format("rigid motions cost no force: |K R| / |K| |R| = {:.1e} in the worst row", worst),
+         .value = worst,
+         .limit = limits.grounding,
+         .cure = ""});
+    return;
+  }
+  places.report(
+      findings,
+      {.severity = Severity::error,
+       .check = "grounding",
+       .what = "dofs that a rigid motion loads: something ties the model to the ground",
+       .value = worst,
+       .limit = limits.grounding,
+       .cure = "Look for springs to ground, springs between nodes apart from each other, and constraints that "
+               "no rigid motion satisfies"},
+      limits.listed);
+}
+
+/// "rz" where the direction is an axis, else its components.
+std::string direction_name(const Vec3& v, bool rotation) {
+  Eigen::Index axis = 0;
+  v.cwiseAbs().maxCoeff(&axis);
+  if (std::abs(v(axis)) > 1.0 - 1e-6) return fmt::format("{}{}", rotation ? 'r' : 'u', "xyz"[axis]);
+  return fmt::format("{} along ({:.3g}, {:.3g}, {:.3g})", rotation ? "rotation" : "translation", v(0), v(1), v(2));
+}
+
+/// A node's own 3×3 blocks of K: a direction without stiffness moves that node alone at no cost.
+void check_singular(const Structure& s, const CheckLimits& limits, std::vector<Finding>& findings) {
+  Places places;
+  double least = 1.0;
+  const auto look = [&](int node, bool rotation, const std::array<int, 3>& rows) {
+    Mat3 block = Mat3::Zero();
+    double trace = 0.0;
+    for (int a = 0; a < 3; ++a)
+      for (int b = 0; b <= a; ++b)
+        if (rows[static_cast<std::size_t>(a)] >= 0 && rows[static_cast<std::size_t>(b)] >= 0)
+          block(a, b) = block(b, a) =
+              s.K.coeff(std::max(rows[static_cast<std::size_t>(a)], rows[static_cast<std::size_t>(b)]),
+                        std::min(rows[static_cast<std::size_t>(a)], rows[static_cast<std::size_t>(b)]));
+    trace = block.trace();
+    for (int a = 0; a < 3; ++a)  // directions that are no rows of K are not looked at
+      if (rows[static_cast<std::size_t>(a)] < 0) block(a, a) = trace > 0.0 ? trace : 1.0;
+    const Eigen::SelfAdjointEigenSolver<Mat3> eigen(block);
+    const double largest = trace > 0.0 ? trace : 1.0;
+    for (int k = 0; k < 3; ++k) {
+      const double ratio = eigen.eigenvalues()(k) / largest;
+      if (ratio >= limits.singular) continue;
+      least = std::min(least, ratio);
+      const auto id = s.node_ids[static_cast<std::size_t>(node)];
+      std::string where = fmt::format("node {} {}", id, direction_name(eigen.eigenvectors().col(k), rotation));
+      for (const Port& port : s.ports)
+        if (port.node == node && id < 0)
+          where = fmt::format("port {} {}", port.name, direction_name(eigen.eigenvectors().col(k), rotation));
+      places.add(-ratio, std::move(where));
+    }
+  };
+  std::array<std::array<int, 3>, 2> rows{};
+  for (int i = 0; i < s.n();) {
+    const int node = s.dofs.free[static_cast<std::size_t>(i)].node;
+    for (auto& block : rows) block.fill(-1);
+    for (; i < s.n() && s.dofs.free[static_cast<std::size_t>(i)].node == node; ++i) {
+      const int d = s.dofs.free[static_cast<std::size_t>(i)].direction;
+      rows[static_cast<std::size_t>(d / 3)][static_cast<std::size_t>(d % 3)] = i;
+    }
+    for (std::size_t b = 0; b < 2; ++b)
+      if (*std::max_element(rows[b].begin(), rows[b].end()) >= 0) look(node, b == 1, rows[b]);
+  }
+  places.report(findings,
+                {.severity = Severity::warning,
+                 .check = "singular_dofs",
+                 .what = "dofs without stiffness of their own: mechanisms, or modes of zero frequency",
+                 .value = std::max(least, 0.0),
+                 .limit = limits.singular,
+                 .cure = "Hold them, tie them, or give them stiffness"},
+                limits.listed);
+}
+
+void check_dropped(const Model& model, const Structure& s, const CheckLimits& limits, std::vector<Finding>& findings) {
+  Places places;
+  for (const Dof& dof : s.dofs.unused) places.add(0.0, name(model, dof));
+  places.report(findings,
+                {.severity = Severity::note,
+                 .check = "dropped_dofs",
+                 .what = "dofs without stiffness and mass, which were dropped",
+                 .cure = ""},
+                limits.listed);
+}
+
+}  // namespace
+
+std::vector<Finding> check_matrices(const Model& model, const Structure& free, const CheckLimits& limits) {
+  std::vector<Finding> findings;
+  check_mass(model, free, limits, findings);
+  check_grounding(free, limits, findings);
+  check_singular(free, limits, findings);
+  check_dropped(model, free, limits, findings);
+  return findings;
+}
+
+}  // namespace tenon::fem
