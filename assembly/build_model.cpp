@@ -82,6 +82,12 @@ void add_masses(const FeSource& fe, const MeshNodes& nodes, fem::Model& model) {
 
 fem::Model read_deck(const FeSource& fe, fem::Mesh& mesh) {
   fem::Deck deck = fem::read_deck(fe.file, !fe.allow.empty());
+  if (fe.units.force != 0.0 && deck.mass_factor != 1.0)
+    throw InputError({fe.file.string()},
+                     fmt::format("PARAM WTMASS {:g} takes the deck's masses to force · time² / length, but its units "
+                                 "declare {}",
+                                 deck.mass_factor, fe.units.name),
+                     "Declare consistent units, e.g. `units: inch-lbf`, or take WTMASS out of the deck");
   mesh = std::move(deck.mesh);
   fem::Model model = to_si(std::move(deck.model), fe.units);
   if (fe.beam_mass)

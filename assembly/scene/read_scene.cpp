@@ -11,6 +11,9 @@
 namespace tenon::assembly {
 namespace {
 
+// Exact by definition: the international inch, foot and pound, and standard gravity.
+constexpr double inch = 0.0254, foot = 0.3048, pound = 0.45359237, gravity = 9.80665, pound_force = pound * gravity;
+
 double unit(const Value& value, const std::vector<std::pair<std::string, double>>& table) {
   std::vector<std::string> names;
   for (const auto& [name, factor] : table) names.push_back(name);
@@ -73,21 +76,34 @@ Units read_units(const Value& document, const std::filesystem::path& file) {
   const Value* value = document.find("units");
   if (!value) refuse_without_units(document, file);
   if (value->kind == Value::Kind::scalar) {
-    choice(*value, {"SI"});
-    return {};
+    const std::vector<std::string> names{"SI", "mm-t-s", "inch-lbf", "inch-lbf-lbm"};
+    switch (choice(*value, names)) {
+      case 1:
+        return {.length = 1e-3, .mass = 1e3, .name = names[1]};
+      case 2:
+        return {.length = inch, .mass = pound_force / inch, .name = names[2]};
+      case 3:
+        return {.length = inch, .mass = pound, .force = pound_force, .name = names[3]};
+      default:
+        return {};
+    }
   }
   Units units;
-  units.length = unit(*value->find("length"),
-                      {{"m", 1.0}, {"mm", 1e-3}, {"cm", 1e-2}, {"km", 1e3}, {"in", 0.0254}, {"ft", 0.3048}});
+  units.length =
+      unit(*value->find("length"), {{"m", 1.0}, {"mm", 1e-3}, {"cm", 1e-2}, {"km", 1e3}, {"in", inch}, {"ft", foot}});
   units.mass = unit(*value->find("mass"), {{"kg", 1.0},
                                            {"g", 1e-3},
                                            {"t", 1e3},
-                                           {"lb", 0.45359237},
-                                           {"slug", 0.45359237 * 9.80665 / 0.3048},
-                                           {"slinch", 0.45359237 * 9.80665 / 0.0254}});
+                                           {"lb", pound},
+                                           {"slug", pound_force / foot},
+                                           {"slinch", pound_force / inch}});
   units.time = unit(*value->find("time"), {{"s", 1.0}, {"ms", 1e-3}});
   units.name =
       fmt::format("{}, {}, {}", value->find("length")->text, value->find("mass")->text, value->find("time")->text);
+  if (const Value* force = value->find("force")) {
+    units.force = unit(*force, {{"N", 1.0}, {"kN", 1e3}, {"lbf", pound_force}, {"kgf", gravity}});
+    units.name += ", " + force->text;
+  }
   return units;
 }
 

@@ -145,7 +145,8 @@ const Schema output{"an output",
 const Schema units{"a system of units",
                    {{"length", scalar, "m, mm, cm, km, in or ft", true},
                     {"mass", scalar, "kg, g, t, lb, slug or slinch", true},
-                    {"time", scalar, "s or ms", true}}};
+                    {"time", scalar, "s or ms", true},
+                    {"force", scalar, "lbf, N, kN or kgf, where it is not mass · length / time²"}}};
 
 const Schema requirement{"requirements",
                          {{"band", list, "[lowest, highest] frequency that matters, e.g. [0, 20 Hz]"},

@@ -13,7 +13,7 @@
 namespace tenon::assembly {
 namespace {
 
-constexpr Dimension force{1, 1, -2}, velocity{1, 0, -1}, rate{0, 0, -1};
+constexpr Dimension velocity{1, 0, -1}, rate{0, 0, -1};
 
 [[noreturn]] void unknown(const Place& place, const char* what, const std::string& word,
                           const std::vector<std::string>& names) {
@@ -168,7 +168,8 @@ SceneSimulation read_simulation(const Scene& scene) {
       if (!input) unknown(entry.place, "input", entry.key, names);
       const bool turns = input->joint || input->direction >= 3;
       simulation.forces.push_back(
-          {entry.key, entry.place, read_signal(entry.value, turns ? dimension::torque : force, scene.units)});
+          {entry.key, entry.place,
+           read_signal(entry.value, turns ? dimension::torque : dimension::force, scene.units)});
     }
   return simulation;
 }

@@ -27,14 +27,17 @@ struct Convert {
   /// Force or torque over displacement or rotation: each rotation brings one length.
   void operator()(fem::Spring& spring) const {
     const int rotations = (spring.dof_a > 2 ? 1 : 0) + ((spring.node_b < 0 ? spring.dof_a : spring.dof_b) > 2 ? 1 : 0);
-    take(spring.k, units.to_si({rotations, 1, -2}));
+    take(spring.k, units.to_si({rotations - 1, 0, 0, 1}));
   }
 };
 
 }  // namespace
 
-Factor Units::to_si(const Dimension& d) const {
-  const double factor = std::pow(length, d.length) * std::pow(mass, d.mass) * std::pow(time, d.time);
+Factor Units::to_si(const Dimension& dimension) const {
+  Dimension d = dimension;
+  if (force == 0.0) d = {d.length + d.force, d.mass + d.force, d.time - 2 * d.force, 0};
+  const double factor = std::pow(length, d.length) * std::pow(mass, d.mass) * std::pow(time, d.time) *
+                        (d.force == 0 ? 1.0 : std::pow(force, d.force));
   constexpr double round_off = 1e-14;  // of powers and products
   const auto whole = [](double x) { return std::abs(x - std::round(x)) < round_off * x; };
   if (factor < 1.0 && whole(1.0 / factor)) return {1.0, std::round(1.0 / factor)};

@@ -9,7 +9,8 @@ namespace tenon::fem {
 
 struct Deck {
   Mesh mesh;
-  Model model;  ///< its first nodes are those of the mesh
+  Model model;               ///< its first nodes are those of the mesh
+  double mass_factor = 1.0;  ///< Nastran's PARAM,WTMASS, already applied
 };
 
 /// Nastran bulk data by its extension (.bdf, .dat, .nas, .blk); an .inp file that gives its elements sections. An .inp
