@@ -96,7 +96,12 @@ Value read_document(const std::filesystem::path& path) {
   std::stringstream text;
   text << stream.rdbuf();
   try {
-    const YAML::Node root = YAML::Load(text.str());
+    const std::vector<YAML::Node> documents = YAML::LoadAll(text.str());
+    for (std::size_t k = 1; k < documents.size(); ++k)
+      if (!documents[k].IsNull())
+        throw InputError(place_of(path.string(), documents[k].Mark()), "a second document begins behind `---`",
+                         "Keep one scene a file");
+    const YAML::Node root = documents.empty() ? YAML::Node() : documents.front();
     return Walk(path.string())(root, {path.string(), 1, 1}, 0);
   } catch (const YAML::Exception& fault) {
     throw InputError(place_of(path.string(), fault.mark), fmt::format("this is not YAML: {}", fault.msg),
