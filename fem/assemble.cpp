@@ -11,6 +11,7 @@
 #include "fem/elements/shell.hpp"
 #include "fem/elements/spring.hpp"
 #include "fem/error.hpp"
+#include "fem/matrix_part.hpp"
 #include "fem/sparsity.hpp"
 #include "fem/structure.hpp"
 
@@ -67,6 +68,7 @@ std::vector<char> used_dofs(const Model& model) {
     const FullDofs dofs = full_dofs(element);
     for (int i = 0; i < dofs.size; ++i) used[static_cast<std::size_t>(dofs.dof[static_cast<std::size_t>(i)])] = 1;
   }
+  for (const auto& part : model.matrix_parts) mark_used(*part, used);
   return used;
 }
 
@@ -266,12 +268,30 @@ void drop_empty_rows(const Model& model, Structure& s) {
   map.free = std::move(free);
 }
 
+/// Nodes of solids have no rotations, so that a port there would turn without resistance.
+void require_complete_ports(const Model& model, const Structure& s) {
+  const Eigen::VectorXd k = s.K.diagonal(), m = s.M.diagonal();
+  for (const Port& port : model.ports) {
+    std::vector<std::string_view> loose;
+    static constexpr std::array<const char*, 6> directions{"ux", "uy", "uz", "rx", "ry", "rz"};
+    for (int d = 0; d < 6; ++d)
+      if (const int row = s.dofs.row({port.node, d}); row >= 0 && k(row) == 0.0 && m(row) == 0.0)
+        loose.emplace_back(directions[static_cast<std::size_t>(d)]);
+    if (!loose.empty())
+      throw ModelError(
+          fmt::format("{}: port '{}' lies on node {}, which has neither stiffness nor mass in {}", model.source,
+                      port.name, model.node_ids[static_cast<std::size_t>(port.node)], fmt::join(loose, ", ")),
+          "Join the port to a `set` of several nodes: their translations carry its rotations");
+  }
+}
+
 }  // namespace
 
 Structure assemble(const Model& model) {
-  if (model.elements.empty())
+  if (model.elements.empty() && model.matrix_parts.empty())
     throw ModelError(fmt::format("{}: the model has no elements", model.source),
                      "Give sections to the mesh's lines and surfaces, or check the set names");
+  require_consistent_parts(model);
   Structure s;
   s.dofs = eliminate_constraints(model, used_dofs(model));
   const ElementDofs elements = free_dofs(model, s.dofs);
@@ -294,6 +314,11 @@ Structure assemble(const Model& model) {
     rest.setFromTriplets(beside.begin(), beside.end());
     s.M = SparseMatrix(s.M + rest);
   }
+  for (const auto& part : model.matrix_parts) {
+    s.K = SparseMatrix(s.K + over_free_dofs(*part, part->K, s.dofs));
+    s.M = SparseMatrix(s.M + over_free_dofs(*part, part->M, s.dofs));
+  }
+  if (!model.matrix_parts.empty()) require_complete_ports(model, s);
   s.nodes = model.nodes;
   s.node_ids = model.node_ids;
   s.scalar_points = model.scalar_points;

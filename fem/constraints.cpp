@@ -30,10 +30,10 @@ bool has(Directions directions, int d) { return ((directions >> d) & 1U) != 0; }
 
 /// u_dep(axis) = the rigid motion of the independent node, one row a direction and dependent node.
 void rigid_link_rows(const Model& model, const RigidLink& link, std::vector<Row>& rows) {
-  const Vec3& x = model.nodes[static_cast<std::size_t>(link.independent)];
+  const Vec3& x = position(model, link.independent);
   const Mat6 axes = rotation6(link.axes);
   for (const int node : link.dependents) {
-    const Mat6 T = tau(model.nodes[static_cast<std::size_t>(node)] - x);
+    const Mat6 T = tau(position(model, node) - x);
     for (int d = 0; d < 6; ++d) {
       if (!has(link.directions, d)) continue;
       Row row{{}, -1, "rigid link", link.id};
@@ -202,11 +202,11 @@ std::vector<Row> rows_of(const Model& model) {
 }  // namespace
 
 Mat6X averaging_matrix(const Model& model, const AverageLink& link) {
-  const Vec3& x = model.nodes[static_cast<std::size_t>(link.reference)];
+  const Vec3& x = position(model, link.reference);
   double distance = 0.0;
   int columns = 0;
   for (const AverageLink::Group& group : link.nodes) {
-    distance += (model.nodes[static_cast<std::size_t>(group.node)] - x).norm() / static_cast<double>(link.nodes.size());
+    distance += (position(model, group.node) - x).norm() / static_cast<double>(link.nodes.size());
     for (int d = 0; d < 6; ++d) columns += has(group.directions, d) ? 1 : 0;
   }
   const double length = distance > 0.0 ? distance : 1.0;  // rotations weigh as translations at the mean distance

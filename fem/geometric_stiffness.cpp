@@ -49,6 +49,9 @@ SparseMatrix geometric_stiffness(const Model& model, const Structure& structure,
     throw ModelError(fmt::format("{} displacements of {} nodes for a structure of {} dofs and {} nodes", u.size(),
                                  model.nodes.size(), structure.n(), map.n_nodes()),
                      "Give the model that the structure was assembled from");
+  if (!model.matrix_parts.empty())
+    throw ModelError(fmt::format("{}: matrices alone do not tell the stress in the body", model.source),
+                     "Geometric stiffness needs the mesh; leave out what large motion needs (--linear)");
   const Eigen::VectorXd full = map.expand(u);
   std::vector<Eigen::Triplet<double>> entries;
   ElementMatrices::Matrix K;

@@ -1,6 +1,9 @@
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "fem/error.hpp"
 #include "fem/structure.hpp"
 
 namespace tenon::fem {
@@ -95,6 +98,8 @@ void add(const Model&, const Spring&, Moments&) {}
 }  // namespace
 
 MassProperties geometric_mass_properties(const Model& model) {
+  if (!model.matrix_parts.empty())
+    throw ModelError(fmt::format("{}: matrices have no volumes and densities", model.source), "Take the mass of M");
   Moments sum;
   for (const Element& element : model.elements) std::visit([&](const auto& e) { add(model, e, sum); }, element);
   return sum.properties();
@@ -107,14 +112,19 @@ Eigen::MatrixXd rigid_motions(const Structure& structure, const Vec3& point) {
   for (int i = 0; i < structure.n(); ++i) {
     const Dof& dof = structure.dofs.free[static_cast<std::size_t>(i)];
     const auto node = static_cast<std::size_t>(dof.node);
-    if (scalar[node] == 0) R.row(i) = tau(structure.nodes[node] - point).row(dof.direction);
+    if (scalar[node] != 0) continue;
+    if (!structure.nodes[node].allFinite())
+      throw ModelError(fmt::format("the place of {} is not known", structure.dofs.names[static_cast<std::size_t>(i)]),
+                       "Rigid motions need it: give x y z of the node beside the matrices");
+    R.row(i) = tau(structure.nodes[node] - point).row(dof.direction);
   }
   return R;
 }
 
 MassProperties mass_properties(const Structure& structure) {
   Vec3 centroid = Vec3::Zero();
-  for (const Vec3& x : structure.nodes) centroid += x / static_cast<double>(structure.nodes.size());
+  for (const Vec3& x : structure.nodes)
+    if (x.allFinite()) centroid += x / static_cast<double>(structure.nodes.size());
   const Eigen::MatrixXd R = rigid_motions(structure, centroid);
   const Mat6 D = R.transpose() * (structure.M.selfadjointView<Eigen::Lower>() * R);
   MassProperties p;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "fem/error.hpp"
+
 namespace tenon::fem {
 
 std::string name(const Model& model, const Dof& dof) {
@@ -11,6 +13,15 @@ std::string name(const Model& model, const Dof& dof) {
   for (const Port& port : model.ports)
     if (port.node == dof.node && model.node_ids[node] < 0) return fmt::format("port {} {}", port.name, direction);
   return fmt::format("node {} {}", model.node_ids[node], direction);
+}
+
+const Vec3& position(const Model& model, int node) {
+  const Vec3& x = model.nodes[static_cast<std::size_t>(node)];
+  if (!x.allFinite())
+    throw ModelError(fmt::format("{}: the place of node {} is not known", model.source,
+                                 model.node_ids[static_cast<std::size_t>(node)]),
+                     "Links, ports and rigid motions need it: give x y z of the node beside the matrices");
+  return x;
 }
 
 }  // namespace tenon::fem

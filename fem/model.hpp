@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <variant>
 #include <vector>
@@ -147,15 +148,18 @@ struct Port {
   Mat3 axes = Mat3::Identity();  ///< columns: the port's axes in the body frame
 };
 
+struct MatrixPart;  // matrix_part.hpp
+
 struct Model {
   std::string source;
-  std::vector<Vec3> nodes;         ///< [m]
+  std::vector<Vec3> nodes;         ///< [m]; NaN where the file does not tell a place (nodes of matrices)
   std::vector<long> node_ids;      ///< the file's numbers, for messages; < 0 for nodes made here
   std::vector<int> scalar_points;  ///< nodes that are one scalar dof (direction 0), without position
   std::vector<Material> materials;
   std::vector<BeamSection> beam_sections;
   std::vector<ShellSection> shell_sections;
   std::vector<Element> elements;
+  std::vector<std::shared_ptr<const MatrixPart>> matrix_parts;  ///< given as K and M
   std::vector<RigidLink> rigid_links;
   std::vector<AverageLink> average_links;
   std::vector<LinearConstraint> constraints;
@@ -166,5 +170,8 @@ struct Model {
 
 /// "node 45 rz", with the file's node number.
 std::string name(const Model& model, const Dof& dof);
+
+/// The place of a node [m]. Throws ModelError when the file that it came from does not tell it.
+const Vec3& position(const Model& model, int node);
 
 }  // namespace tenon::fem

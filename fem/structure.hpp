@@ -69,12 +69,14 @@ Structure assemble(const Model& model);
 
 /// Geometric stiffness K_σ of the stress that the displacement u causes (n×n, lower triangle, rows of K): second-order
 /// work of axial forces in beams and of membrane forces in shells. Stress in rigid links and springs is left out, and
-/// what the elements say of theirs. The tangent of a loaded structure is K + K_σ, its buckling K + λ K_σ singular.
+/// what the elements say of theirs. Parts given as matrices do not tell their stress: ModelError.
+/// The tangent of a loaded structure is K + K_σ, its buckling K + λ K_σ singular.
 /// @param model  the one that `structure` was assembled from  @param u  n [m, rad]  @throws ModelError otherwise
 SparseMatrix geometric_stiffness(const Model& model, const Structure& structure,
                                  const Eigen::Ref<const Eigen::VectorXd>& u);
 
-/// Rigid-body motions about `point` restricted to the free dofs: n×6, columns = unit twist components.
+/// Rigid-body motions about `point` restricted to the free dofs: n×6, columns = unit twist components. Throws
+/// ModelError for a node whose place is not known.
 Eigen::MatrixXd rigid_motions(const Structure& structure, const Vec3& point);
 
 /// Mass, centre of mass and inertia.
@@ -86,7 +88,8 @@ struct MassProperties {
 
 /// From RᵀMR.
 MassProperties mass_properties(const Structure& structure);
-/// From volumes, areas, lengths and densities alone: an independent check of the former.
+/// From volumes, areas, lengths and densities alone: an independent check of the former. Parts given as matrices have
+/// none of these: ModelError.
 MassProperties geometric_mass_properties(const Model& model);
 
 }  // namespace tenon::fem
