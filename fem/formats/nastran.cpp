@@ -142,12 +142,7 @@ NastranDeck read_nastran(const std::filesystem::path& path, const NastranOptions
   NastranDeck& deck = draft.deck;
   deck.mesh.source = deck.model.source = path.string();
   deck.mesh.format = "nastran bulk data";
-  std::vector<std::vector<Card>> by_name(text.names.size());
-  std::vector<std::size_t> counts(text.names.size(), 0);
-  for (const CardSpan& span : text.cards) ++counts[span.name];
-  for (std::size_t n = 0; n < counts.size(); ++n) by_name[n].reserve(counts[n]);
-  for (const CardSpan& span : text.cards) by_name[span.name].emplace_back(text, span);
-  for (std::size_t n = 0; n < by_name.size(); ++n) draft.cards[text.names[n]] = std::move(by_name[n]);
+  sort_cards(text, draft);
   for (const CaseStatement& statement : text.case_control)
     if (const Assignment a = assignment(statement.text); a.key == "TITLE" && deck.title.empty()) deck.title = a.value;
   if (text.has_case_control && !text.ended)

@@ -9,7 +9,7 @@
 namespace tenon::fem::matrices {
 
 InterfaceCards::InterfaceCards(const std::filesystem::path& path) : text(nastran::read_text(path, true)) {
-  for (const nastran::CardSpan& span : text.cards) draft.cards[span.name].emplace_back(text, span);
+  nastran::sort_cards(text, draft);
   nastran::read_grids(draft);
   for (const unsigned held : draft.permanent_spc)
     if (held != 0) draft.losses.add("GRID PS", "supports are no part of the matrices: hold these dofs in the model");
@@ -46,7 +46,7 @@ SparseMatrix turn(std::vector<MatrixRow>& rows, const InterfaceCards& cards, con
   for (std::size_t i = 0; i < rows.size(); ++i)
     if (rows[i].scalar) entries.emplace_back(static_cast<int>(i), static_cast<int>(i), 1.0);
   for (const auto& [id, at] : row_of) {
-    const Mat3& axes = cards.draft.axes[static_cast<std::size_t>(cards.draft.node_of.at(id))];
+    const Mat3& axes = cards.draft.axes[static_cast<std::size_t>(*cards.draft.node_of.find(id))];
     if (!axes.isIdentity(0.0)) any = true;
     for (const int half : {0, 3}) {
       const int* local = at.data() + half;
@@ -88,7 +88,7 @@ void turn_to_basic(MatrixData& data, const InterfaceCards& cards) {
   }
   for (const MatrixRow& row : data.rows) {
     if (row.scalar) continue;
-    const auto node = static_cast<std::size_t>(cards.draft.node_of.at(row.node));
+    const auto node = static_cast<std::size_t>(*cards.draft.node_of.find(row.node));
     if (data.positions.emplace(row.node, cards.draft.deck.mesh.points[node]).second)
       data.sets["boundary"].push_back(row.node);
   }

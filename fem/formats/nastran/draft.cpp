@@ -64,6 +64,15 @@ bool ScalarPoints::any_in(const Range& range) const { return meets(points, range
 bool ScalarPoints::in_q_set(long id) const { return meets(q_set, {id, id}); }
 bool ScalarPoints::is_held(long id) const { return meets(held, {id, id}); }
 
+void sort_cards(const Text& text, Draft& draft) {
+  std::vector<std::vector<Card>> by_name(text.names.size());
+  std::vector<std::size_t> counts(text.names.size(), 0);
+  for (const CardSpan& span : text.cards) ++counts[span.name];
+  for (std::size_t n = 0; n < counts.size(); ++n) by_name[n].reserve(counts[n]);
+  for (const CardSpan& span : text.cards) by_name[span.name].emplace_back(text, span);
+  for (std::size_t n = 0; n < by_name.size(); ++n) draft.cards[text.names[n]] = std::move(by_name[n]);
+}
+
 std::vector<Card> Draft::take(const std::string& name) {
   const auto found = cards.find(name);
   if (found == cards.end()) return {};

@@ -48,6 +48,7 @@ class NumberMap {
     }
     return {&others_.try_emplace(number, value).first->second, true};
   }
+  bool contains(long number) const { return find(number) != nullptr; }
   /// Nothing when there is no such number.
   const Value* find(long number) const {
     if (rising_.empty()) return nullptr;
@@ -165,6 +166,9 @@ struct Draft {
   /// The GRIDs in a range, in rising order; a range of one must exist as GRID or SPOINT.
   std::vector<int> nodes_in(const Range& range, const Card& card) const;
 };
+
+/// Fills `draft.cards`.
+void sort_cards(const Text& text, Draft& draft);
 
 // The steps, in the order of their calls.
 void read_grids(Draft& draft);          ///< GRDSET, CORDij, GRID
