@@ -12,6 +12,7 @@
 
 #include "fem/error.hpp"
 #include "fem/formats/matrices/calculix.hpp"
+#include "tests/analytic/calculix/ccx.hpp"
 #include "tests/unit/fem/formats/scratch.hpp"
 
 using namespace tenon;
@@ -63,13 +64,6 @@ class Block {
   std::string elements_;
 };
 
-bool installed() { return std::system("command -v ccx > /dev/null") == 0; }
-
-bool run(const Scratch& folder, const std::string& job) {
-  const std::string at = folder.file("").string();
-  return std::system(fmt::format("cd '{}' && OMP_NUM_THREADS=1 ccx {} > {}.log 2>&1", at, job, job).c_str()) == 0;
-}
-
 /// The ten eigenvalues of a job.eig (*FREQUENCY, STORAGE=YES) in all their digits: after four integers, the last of
 /// them the count.
 std::vector<double> stored_eigenvalues(const std::string& bytes) {
@@ -87,13 +81,13 @@ std::vector<double> stored_eigenvalues(const std::string& bytes) {
 /// The tolerance asked for is 1e-8 of the frequencies. The files carry 14 digits; CalculiX prints seven of each
 /// frequency, so the comparison takes the doubles of its .eig file.
 TEST(MatrixStorage, GivesCalculixsOwnFrequencies) {
-  if (!installed()) GTEST_SKIP() << "CalculiX (calculix-ccx) is not installed";
+  if (!calculix::installed()) GTEST_SKIP() << "CalculiX (calculix-ccx) is not installed";
   const Scratch folder;
   const Block block;
   folder.write("part.inp", block.deck("SOLVER=MATRIXSTORAGE"));
   folder.write("own.inp", block.deck("STORAGE=YES"));
-  ASSERT_TRUE(run(folder, "part")) << fem::testing::contents(folder.file("part.log"));
-  ASSERT_TRUE(run(folder, "own")) << fem::testing::contents(folder.file("own.log"));
+  ASSERT_TRUE(calculix::run(folder.file(""), "part")) << fem::testing::contents(folder.file("part.log"));
+  ASSERT_TRUE(calculix::run(folder.file(""), "own")) << fem::testing::contents(folder.file("own.log"));
   const std::vector<double> own = stored_eigenvalues(fem::testing::contents(folder.file("own.eig")));
   ASSERT_EQ(own.size(), 10U) << "the .eig file is not laid out as in CalculiX 2.20";
 
@@ -123,14 +117,14 @@ TEST(MatrixStorage, GivesCalculixsOwnFrequencies) {
 
 /// CalculiX makes solids of beams and labels their rows by the nodes of the beam.
 TEST(MatrixStorage, OfBeamsIsRefused) {
-  if (!installed()) GTEST_SKIP() << "CalculiX (calculix-ccx) is not installed";
+  if (!calculix::installed()) GTEST_SKIP() << "CalculiX (calculix-ccx) is not installed";
   const Scratch folder;
   folder.write("beam.inp",
                "*NODE, NSET=NALL\n1,0.,0.,0.\n2,.5,0.,0.\n3,1.,0.,0.\n*ELEMENT, TYPE=B32R, ELSET=EALL\n1,1,2,3\n"
                "*MATERIAL, NAME=STEEL\n*ELASTIC\n210000.,.3\n*DENSITY\n7.8E-9\n"
                "*BEAM SECTION, ELSET=EALL, MATERIAL=STEEL, SECTION=RECT\n.1,.2\n0.,0.,1.\n*BOUNDARY\n1,1,6\n"
                "*STEP\n*FREQUENCY, SOLVER=MATRIXSTORAGE\n3\n*END STEP\n");
-  ASSERT_TRUE(run(folder, "beam")) << fem::testing::contents(folder.file("beam.log"));
+  ASSERT_TRUE(calculix::run(folder.file(""), "beam")) << fem::testing::contents(folder.file("beam.log"));
   try {
     fem::read_calculix_matrices(folder.file("beam").string());
     FAIL() << "read without an error";

@@ -1,0 +1,84 @@
+// The same decks read here and run by CalculiX, which turns beams and shells into solids of second order.
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "fem/formats/abaqus.hpp"
+#include "fem/structure.hpp"
+#include "reduction/modes.hpp"
+#include "tests/analytic/calculix/ccx.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+using namespace tenon;
+
+namespace {
+
+constexpr const char* steel_and_step =
+    "*MATERIAL, NAME=STEEL\n*ELASTIC\n2.1E11, .3\n*DENSITY\n7800.\n{}*BOUNDARY\n{}*STEP\n*FREQUENCY\n10\n*END STEP\n";
+
+/// A portal of three members of 1 m (the beam of 1.2 m), n elements of three nodes each, .03 wide along z and .02
+/// thick, its feet held.
+std::string portal(int n) {
+  std::string nodes = "*NODE, NSET=ALL\n", elements = "*ELEMENT, TYPE=B32, ELSET=FRAME\n";
+  const int last = 6 * n;  // nodes along the portal
+  for (int i = 0; i <= last; ++i) {
+    const double s = static_cast<double>(i) / (2 * n);
+    const double x = s <= 1.0 ? 0.0 : s <= 2.0 ? 1.2 * (s - 1.0) : 1.2, y = s <= 1.0 ? s : s <= 2.0 ? 1.0 : 3.0 - s;
+    nodes += fmt::format("{},{:.15g},{:.15g},0.\n", i + 1, x, y);
+  }
+  for (int e = 0; e < 3 * n; ++e) elements += fmt::format("{},{},{},{}\n", e + 1, 2 * e + 1, 2 * e + 2, 2 * e + 3);
+  return "*HEADING\nportal\n" + nodes + elements +
+         fmt::format(fmt::runtime(steel_and_step),
+                     "*BEAM SECTION, ELSET=FRAME, MATERIAL=STEEL, SECTION=RECT\n.03, .02\n0., 0., 1.\n",
+                     fmt::format("1,1,6\n{},1,6\n", last + 1));
+}
+
+/// A plate of 1 × .8 m, n×n elements of eight nodes, one edge held.
+std::string plate(int n, double thickness) {
+  std::string nodes = "*NODE, NSET=ALL\n", elements = "*ELEMENT, TYPE=S8R, ELSET=PLATE\n", held;
+  const auto id = [n](int i, int j) { return j * (2 * n + 1) + i + 1; };
+  for (int j = 0; j <= 2 * n; ++j)
+    for (int i = 0; i <= 2 * n; ++i) {
+      if (i % 2 == 1 && j % 2 == 1) continue;
+      nodes += fmt::format("{},{:.15g},{:.15g},0.\n", id(i, j), i / (2.0 * n), 0.8 * j / (2.0 * n));
+      if (i == 0) held += fmt::format("{},1,6\n", id(i, j));
+    }
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      const int x = 2 * i, y = 2 * j;
+      elements += fmt::format("{},{},{},{},{},{},{},{},{}\n", j * n + i + 1, id(x, y), id(x + 2, y), id(x + 2, y + 2),
+                              id(x, y + 2), id(x + 1, y), id(x + 2, y + 1), id(x + 1, y + 2), id(x, y + 1));
+    }
+  return "*HEADING\nplate\n" + nodes + elements +
+         fmt::format(fmt::runtime(steel_and_step),
+                     fmt::format("*SHELL SECTION, ELSET=PLATE, MATERIAL=STEEL\n{}\n", thickness), held);
+}
+
+void compare(const TemporaryFolder& folder, const std::string& deck, double tolerance) {
+  const auto file = folder.write("job.inp", deck);
+  ASSERT_TRUE(calculix::run(folder.path(), "job"));
+  const std::vector<double> theirs = calculix::frequencies(folder.path() / "job.dat");
+  ASSERT_EQ(theirs.size(), 10U);
+  const fem::Structure structure = fem::assemble(fem::read_abaqus(file).model);
+  const reduction::Modes modes = reduction::solve_modes(structure, {.count = 10});
+  for (int k = 0; k < 10; ++k) {
+    const double ours = std::sqrt(modes.lambda[k]) / (2.0 * std::numbers::pi),
+                 ccx = theirs[static_cast<std::size_t>(k)];
+    RecordProperty(fmt::format("mode_{}", k + 1), fmt::format("{:.6g} {:.6g}", ours, ccx));
+    EXPECT_NEAR(ours / ccx, 1.0, tolerance) << "mode " << k + 1 << ": " << ours << " against " << ccx << " Hz";
+  }
+}
+
+}  // namespace
+
+// Slender members: bending decides; CalculiX joins the members' solids by a rigid knot of the section's size, .02 m of
+// a member's 1 m, which is the larger part of the difference.
+TEST(CalculixFrequencies, APortalOfBeams) {
+  if (!calculix::installed()) GTEST_SKIP() << "CalculiX (calculix-ccx) is not installed";
+  compare(TemporaryFolder(), portal(10), 2e-2);
+}
+
+TEST(CalculixFrequencies, APlateOfShells) {
+  if (!calculix::installed()) GTEST_SKIP() << "CalculiX (calculix-ccx) is not installed";
+  compare(TemporaryFolder(), plate(10, 0.01), 2e-2);
+}
