@@ -4,6 +4,7 @@
 
 #include "assembly/build.hpp"
 #include "assembly/build_beam.hpp"
+#include "assembly/matrix_body.hpp"
 #include "assembly/scene/mesh_nodes.hpp"
 #include "assembly/scene/mesh_sections.hpp"
 #include "fem/formats/deck.hpp"
@@ -33,8 +34,18 @@ int add_node(fem::Model& model, const Vec3& point) {
 /// The node of a port; a set of several nodes gets one of its own, at its centroid unless the scene says where, which
 /// the set follows rigidly or on average.
 int port_node(const ScenePort& port, const MeshNodes& nodes, fem::Model& model) {
-  if (port.where.kind != NodeSelector::Kind::set) return nodes.single(port.where);
+  const auto placed = [&](int node) {
+    try {
+      fem::position(model, node);
+    } catch (const ModelError& fault) {
+      throw InputError(port.where.place, fmt::format("port '{}': {}", port.name, fault.what()),
+                       "In the label file a row is `NODE DIRECTION X Y Z`");
+    }
+    return node;
+  };
+  if (port.where.kind != NodeSelector::Kind::set) return placed(nodes.single(port.where));
   const std::vector<int> set = nodes.of_set(port.where.name, port.where.place);
+  std::for_each(set.begin(), set.end(), placed);
   Vec3 centre = Vec3::Zero();
   for (const int node : set) centre += model.nodes[static_cast<std::size_t>(node)] / static_cast<double>(set.size());
   if (set.size() == 1 && (!port.where.centre || (*port.where.centre - centre).norm() == 0.0)) return set.front();
@@ -106,7 +117,11 @@ fem::Model build_model(const SceneBody& body) {
                      "Only a body with `fe` or `beam` has a model");
   fem::Mesh mesh;
   fem::Model model;
-  if (fem::is_deck(fe->file)) {
+  if (fe->matrices) {
+    fem::MatrixModel matrices = read_matrix_body(*fe->matrices, fe->units);
+    mesh = std::move(matrices.mesh);
+    model = std::move(matrices.model);
+  } else if (fem::is_deck(fe->file)) {
     model = read_deck(*fe, mesh);
   } else {
     mesh = fem::read_mesh(fe->file);

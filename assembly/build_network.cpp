@@ -53,6 +53,11 @@ ReducedBody reduce_fe(const SceneBody& body, const FeSource& fe, const BodyPlan&
   reduced.name = body.name;
   reduced.certificate.source = fe.file.filename().string();
   reduced.certificate.source_hash = reduction::file_hash(fe.file);
+  if (fe.matrices)
+    for (const auto& file : {fe.matrices->M, fe.matrices->labels}) {
+      reduced.certificate.source += fmt::format(", {}", file.filename().string());
+      reduced.certificate.source_hash += fmt::format(", {}", reduction::file_hash(file));
+    }
   reduced.certificate.nodes = static_cast<int>(model.nodes.size());
   reduced.certificate.elements = static_cast<int>(model.elements.size());
   reduced.certificate.dofs = structure.n();

@@ -6,6 +6,7 @@
 
 #include "fem/constraints.hpp"
 #include "fem/error.hpp"
+#include "fem/matrix_part.hpp"
 
 namespace tenon::assembly {
 namespace {
@@ -129,6 +130,7 @@ int append(Model& whole, const Model& part, const Mat3& R, const Vec3& origin) {
         element);
     whole.elements.push_back(element);
   }
+  for (const auto& matrices : part.matrix_parts) whole.matrix_parts.push_back(fem::moved(*matrices, R, m.node, scalar));
   for (fem::RigidLink link : part.rigid_links) {
     link.independent += m.node;
     for (int& node : link.dependents) node += m.node;

@@ -55,8 +55,9 @@ class Text {
   }
   void add(const SceneSupport& s) { (*this)(s.set, s.directions); }
   void add(const SceneNodeMass& m) { (*this)(m.where, m.mass, m.inertia, m.offset); }
+  void add(const MatrixFiles& m) { (*this)(m.K, m.M, m.labels); }
   void add(const FeSource& fe) {
-    (*this)(fe.file, fe.units, fe.sections, fe.supports, fe.masses, fe.beam_mass, fe.ignore, fe.allow);
+    (*this)(fe.file, fe.matrices, fe.units, fe.sections, fe.supports, fe.masses, fe.beam_mass, fe.ignore, fe.allow);
   }
   void add(const ReducedSource& reduced) { (*this)(reduced.file); }
   void add(const BeamSource& b) { (*this)(b.model, b.from, b.to, b.section, b.elements, b.modes, b.planar); }

@@ -65,9 +65,15 @@ struct RigidSource {
   Mat3 inertia = Mat3::Zero();  ///< about the centre
 };
 
+/// K and M of another program in Matrix Market files, and the labels of their rows.
+struct MatrixFiles {
+  std::filesystem::path K, M, labels;
+};
+
 struct FeSource {
-  std::filesystem::path file;
-  Units units;  ///< of the file
+  std::filesystem::path file;           ///< mesh, deck, or K of `matrices`
+  std::optional<MatrixFiles> matrices;  ///< in place of a mesh
+  Units units;                          ///< of the file
   std::vector<SceneSection> sections;
   std::vector<SceneSupport> supports;
   std::vector<SceneNodeMass> masses;

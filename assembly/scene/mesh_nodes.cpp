@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "fem/matrix_part.hpp"
+
 namespace tenon::assembly {
 namespace {
 
@@ -34,6 +36,8 @@ std::vector<bool> used_nodes(const fem::Model& model) {
   std::vector<bool> used(model.nodes.size(), false);
   const MarkUsed visit{used};
   for (const fem::Element& element : model.elements) std::visit(visit, element);
+  for (const auto& part : model.matrix_parts)
+    for (const fem::Dof& dof : part->dofs) visit.mark(dof.node);
   for (const fem::RigidLink& link : model.rigid_links) {
     visit.mark(link.independent);
     for (const int node : link.dependents) visit.mark(node);
@@ -50,10 +54,12 @@ std::vector<bool> used_nodes(const fem::Model& model) {
 }  // namespace
 
 MeshNodes::MeshNodes(const fem::Mesh& mesh, const fem::Model& model)
-    : mesh_(mesh), model_(model), used_(used_nodes(model)) {
+    : mesh_(mesh), model_(model), used_(used_nodes(model)), placed_(used_) {
+  for (const int point : model.scalar_points) placed_[static_cast<std::size_t>(point)] = false;
   Eigen::AlignedBox3d box;
   for (std::size_t k = 0; k < model.nodes.size(); ++k) {
-    if (used_[k]) box.extend(model.nodes[k]);
+    placed_[k] = placed_[k] && model.nodes[k].allFinite();
+    if (placed_[k]) box.extend(model.nodes[k]);
     if (k < model.node_ids.size()) by_id_.emplace(model.node_ids[k], static_cast<int>(k));
   }
   if (!box.isEmpty()) size_ = box.diagonal().norm();
@@ -86,7 +92,7 @@ int MeshNodes::nearest(const Vec3& point) const {
   int best = -1;
   double best_distance = 0.0;
   for (std::size_t k = 0; k < model_.nodes.size(); ++k) {
-    if (!used_[k]) continue;
+    if (!placed_[k]) continue;
     const double distance = (model_.nodes[k] - point).squaredNorm();
     if (best < 0 || distance < best_distance) {
       best = static_cast<int>(k);

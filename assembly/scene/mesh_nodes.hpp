@@ -26,6 +26,7 @@ class MeshNodes {
   const fem::Mesh& mesh_;
   const fem::Model& model_;
   std::vector<bool> used_;
+  std::vector<bool> placed_;  // used, and at a known place: neither scalar points nor nodes of unplaced matrices
   std::unordered_map<long, int> by_id_;
   double size_ = 0.0;  // diagonal of the bounding box
 };

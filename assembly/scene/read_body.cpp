@@ -122,12 +122,19 @@ FeSource read_fe(const Member& entry, const std::filesystem::path& folder, const
                  const Units& units) {
   const Value& body = entry.value;
   FeSource fe;
-  fe.file = folder / body.find("fe")->text;
   fe.units = units;
   const Value* sections = body.find("sections");
-  if (fem::is_deck(fe.file)) {
+  if (const Value* matrices = body.find("matrices")) {
+    refuse(body, {"sections", "material", "ignore", "beam_mass"}, "matrices, which hold all stiffness and mass");
+    const auto file = [&](const char* key) { return folder / matrices->find(key)->text; };
+    fe.matrices = MatrixFiles{file("K"), file("M"), file("labels")};
+    fe.file = fe.matrices->K;
+  } else {
+    fe.file = folder / body.find("fe")->text;
+  }
+  if (!fe.matrices && fem::is_deck(fe.file)) {
     refuse(body, {"sections", "material", "ignore"}, "a deck, which carries its own");
-  } else if (!sections || sections->members.empty()) {
+  } else if (!fe.matrices && (!sections || sections->members.empty())) {
     throw InputError(
         entry.place,
         fmt::format("body '{}' has no sections, and {} carries none", entry.key, fe.file.filename().string()),
@@ -166,7 +173,7 @@ SceneBody read_body(const Member& entry, const std::filesystem::path& folder, co
   SceneBody body;
   body.name = entry.key;
   body.place = entry.place;
-  const std::string kind = one_of(map, {"rigid", "fe", "reduced", "beam"}, what);
+  const std::string kind = one_of(map, {"rigid", "fe", "matrices", "reduced", "beam"}, what);
 
   if (kind == "rigid") {
     refuse(map, {"material", "sections", "beam_mass", "fix", "masses", "ignore", "allow", "damping", "reduction"},
@@ -176,7 +183,7 @@ SceneBody read_body(const Member& entry, const std::filesystem::path& folder, co
                        .inertia = inertia(*rigid.find("inertia"), units)};
     if (const Value* com = rigid.find("com")) source.centre = vector(*com, dimension::length, units);
     body.source = source;
-  } else if (kind == "fe") {
+  } else if (kind == "fe" || kind == "matrices") {
     body.source = read_fe(entry, folder, materials, units);
   } else if (kind == "beam") {
     refuse(map, {"material", "sections", "beam_mass", "fix", "masses", "ignore", "allow", "ports"},
@@ -185,7 +192,7 @@ SceneBody read_body(const Member& entry, const std::filesystem::path& folder, co
     body.ports = {{.name = "P", .where = {}, .place = entry.place}, {.name = "C", .where = {}, .place = entry.place}};
     body.ports[0].where.point = beam.from;
     body.ports[1].where.point = beam.to;
-    body.parent_port = "P";
+    body.parent_port = body.ports.front().name;
     body.source = beam;
   } else {
     refuse(map,

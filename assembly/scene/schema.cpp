@@ -85,6 +85,11 @@ const Schema reduction{"a reduction",
                         {"modes", scalar, "how many modes, or `all`"},
                         {"band", scalar, "every mode below this frequency, e.g. 50 Hz"}}};
 
+const Schema matrices{"matrices",
+                      {{"K", scalar, "stiffness, a Matrix Market file (.mtx) relative to the scene", true},
+                       {"M", scalar, "mass, likewise", true},
+                       {"labels", scalar, "a text file: `NODE DIRECTION [X Y Z]` for each row, sets", true}}};
+
 const Key one_section{"section", map, "", false, &section};
 const Key one_port{"port", list | map, "", false, &port};
 const Key one_node_mass{"mass", map, "", false, &node_mass};
@@ -97,6 +102,7 @@ const Schema supports{"supports", {}, &one_support};
 const Schema body{"a body",
                   {{"rigid", map, "a rigid body", false, &rigid},
                    {"fe", scalar, "a mesh (.msh, .inp) or deck (.bdf, .dat, .inp), relative to the scene"},
+                   {"matrices", map, "K and M of another program", false, &matrices},
                    {"reduced", scalar, "a *.body.json file"},
                    {"beam", map, "a straight beam without a mesh", false, &beam},
                    {"material", scalar | map, "of every section without one of its own", false, &material},

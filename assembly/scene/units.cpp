@@ -1,6 +1,9 @@
 #include "assembly/scene/units.hpp"
 
+#include <array>
 #include <cmath>
+
+#include "fem/matrix_part.hpp"
 
 namespace tenon::assembly {
 namespace {
@@ -30,6 +33,21 @@ struct Convert {
     take(spring.k, units.to_si({rotations - 1, 0, 0, 1}));
   }
 };
+
+/// Entries of K and M of work-conjugate dofs: each rotation brings one length.
+std::shared_ptr<const fem::MatrixPart> to_si(const fem::MatrixPart& part, const Units& units) {
+  auto result = std::make_shared<fem::MatrixPart>(part);
+  const auto rotations = [&](Eigen::Index i) { return part.dofs[static_cast<std::size_t>(i)].direction > 2 ? 1 : 0; };
+  const auto convert = [&](fem::SparseMatrix& A, int time) {
+    const std::array<Factor, 3> factor{units.to_si({0, 1, time}), units.to_si({1, 1, time}), units.to_si({2, 1, time})};
+    for (int j = 0; j < A.outerSize(); ++j)
+      for (fem::SparseMatrix::InnerIterator it(A, j); it; ++it)
+        it.valueRef() = factor[static_cast<std::size_t>(rotations(it.row()) + rotations(j))] * it.value();
+  };
+  convert(result->K, -2);
+  convert(result->M, 0);
+  return result;
+}
 
 }  // namespace
 
@@ -63,6 +81,7 @@ fem::Model to_si(fem::Model model, const Units& units) {
     take(section.nsm, units.to_si(dimension::mass_per_area));
   }
   for (fem::Element& element : model.elements) std::visit(Convert{units}, element);
+  for (auto& part : model.matrix_parts) part = to_si(*part, units);
   // Σ c u = 0 holds in SI with translations' coefficients divided by the unit of length.
   for (fem::LinearConstraint& constraint : model.constraints)
     for (fem::LinearConstraint::Term& term : constraint.terms)

@@ -5,6 +5,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "fem/matrix_part.hpp"
+
 namespace tenon::fem::checks {
 namespace {
 
@@ -80,6 +82,8 @@ Cells cells_of(const Model& model) {
   result.used.assign(model.nodes.size(), 0);
   result.made.assign(model.nodes.size(), 0);
   for (std::size_t i = 0; i < model.nodes.size(); ++i) result.made[i] = model.node_ids[i] < 0 ? 1 : 0;
+  for (std::size_t i = 0; i < model.nodes.size(); ++i)
+    if (!model.nodes[i].allFinite()) result.made[i] = 1;  // of matrices whose files tell no place
   for (const int node : model.scalar_points) result.made[static_cast<std::size_t>(node)] = 1;
   for (const Element& element : model.elements)
     std::visit([&](const auto& e) { add_element(result, e, static_cast<int>(element.index())); }, element);
@@ -90,6 +94,12 @@ Cells cells_of(const Model& model) {
   for (const LinearConstraint& constraint : model.constraints)
     for (const LinearConstraint::Term& term : constraint.terms)
       tie(result, constraint.terms.front().dof.node, term.dof.node);
+  for (const auto& part : model.matrix_parts)
+    for (int j = 0; j < part->K.outerSize(); ++j)
+      for (SparseMatrix::InnerIterator it(part->K, j); it; ++it)
+        if (it.value() != 0.0)
+          tie(result, part->dofs[static_cast<std::size_t>(j)].node,
+              part->dofs[static_cast<std::size_t>(it.row())].node);
   result.diagonal = diagonal_of(result);
   return result;
 }

@@ -23,6 +23,30 @@ Vec3 centre_of(const Structure& s) {
   return centre;
 }
 
+/// A rigid body weighs the same in every direction.
+void check_mass_by_direction(const Structure& s, const CheckLimits& limits, std::vector<Finding>& findings) {
+  const Eigen::MatrixXd R = rigid_motions(s, Vec3::Zero()).leftCols<3>();
+  const Vec3 m = (R.transpose() * (s.M.selfadjointView<Eigen::Lower>() * R)).diagonal();
+  const double least = m.minCoeff(), most = m.maxCoeff();
+  if (most - least > limits.mass * most)
+    findings.push_back({.severity = Severity::error,
+                        .check = "mass_by_direction",
+                        .what = fmt::format("the mass is {:.6g} in x, {:.6g} in y, {:.6g} in z", m.x(), m.y(), m.z()),
+                        .count = 1,
+                        .value = (most - least) / most,
+                        .limit = limits.mass,
+                        .cure = "Look for masses on scalar points or on dofs that are held or dropped"});
+}
+
+/// Matrices have no geometry to weigh them against.
+void check_mass_of_matrices(const Structure& s, const CheckLimits& limits, std::vector<Finding>& findings) {
+  findings.push_back({.check = "mass",
+                      .what = fmt::format("{:.6g} kg by M alone: matrices have no geometry to check it against",
+                                          mass_properties(s).mass),
+                      .cure = ""});
+  check_mass_by_direction(s, limits, findings);
+}
+
 void check_mass(const Model& model, const Structure& s, const CheckLimits& limits, std::vector<Finding>& findings) {
   const MassProperties a = mass_properties(s), b = geometric_mass_properties(model);
   if (!(b.mass > 0.0) && !(a.mass > 0.0)) {
@@ -51,22 +75,7 @@ void check_mass(const Model& model, const Structure& s, const CheckLimits& limit
   const double inertia = std::max(a.inertia.norm(), b.inertia.norm());
   look("inertia", "inertia of M against geometry", inertia > 0.0 ? (a.inertia - b.inertia).norm() / inertia : 0.0,
        limits.inertia, Severity::warning);
-  // A rigid body weighs the same in every direction.
-  const Mat6X R = rigid_motions(s, a.centre).transpose();
-  std::array<double, 3> m{};
-  for (int d = 0; d < 3; ++d) {
-    const Eigen::VectorXd r = R.row(d).transpose();
-    m[static_cast<std::size_t>(d)] = r.dot(s.M.selfadjointView<Eigen::Lower>() * r);
-  }
-  const auto [least, most] = std::minmax_element(m.begin(), m.end());
-  if (*most - *least > limits.mass * *most)
-    findings.push_back({.severity = Severity::error,
-                        .check = "mass_by_direction",
-                        .what = fmt::format("the mass is {:.6g} in x, {:.6g} in y, {:.6g} in z", m[0], m[1], m[2]),
-                        .count = 1,
-                        .value = (*most - *least) / *most,
-                        .limit = limits.mass,
-                        .cure = "Look for masses on scalar points or on dofs that are held or dropped"});
+  check_mass_by_direction(s, limits, findings);
 }
 
 /// Row by row: F_i = Σ K_ij R_j is what holds dof i during a rigid motion; round-off leaves ε Σ √(K_ii K_jj) |R_j|, the
@@ -194,8 +203,19 @@ void check_dropped(const Model& model, const Structure& s, const CheckLimits& li
 
 std::vector<Finding> check_matrices(const Model& model, const Structure& free, const CheckLimits& limits) {
   std::vector<Finding> findings;
-  check_mass(model, free, limits, findings);
-  check_grounding(free, limits, findings);
+  const bool placed = std::ranges::all_of(model.nodes, [](const Vec3& x) { return x.allFinite(); });
+  if (!placed) {
+    findings.push_back({.check = "places",
+                        .what = "the places of nodes are not known: mass and rigid motions are not checked",
+                        .cure = "Give the coordinates in the label file"});
+  } else {
+    model.matrix_parts.empty() ? check_mass(model, free, limits, findings)
+                               : check_mass_of_matrices(free, limits, findings);
+    check_grounding(free, limits, findings);
+    if (!model.matrix_parts.empty())  // the other program may have left held dofs out
+      for (Finding& finding : findings)
+        if (finding.severity == Severity::error) finding.severity = Severity::warning;
+  }
   check_singular(free, limits, findings);
   check_dropped(model, free, limits, findings);
   return findings;

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "assembly/build.hpp"
@@ -28,7 +29,11 @@ BodyCheck check_fe(const assembly::Scene& scene, const assembly::SceneBody& body
   for (fem::Finding& finding : fem::check_model(model, {}, &structure))
     findings.push_back({body.name, std::move(finding)});
   const bool sound = structure.n() > 0;
-  const fem::MassProperties mass = sound ? fem::mass_properties(structure) : fem::geometric_mass_properties(model);
+  fem::MassProperties mass;
+  if (!sound)
+    mass = fem::geometric_mass_properties(model);
+  else if (std::all_of(model.nodes.begin(), model.nodes.end(), [](const fem::Vec3& x) { return x.allFinite(); }))
+    mass = fem::mass_properties(structure);
   if (!model.supports.empty()) {
     findings.push_back(remark(body.name,
                               fmt::format("{} dofs are held to the inertial frame by `fix`{}", model.supports.size(),
@@ -38,7 +43,7 @@ BodyCheck check_fe(const assembly::Scene& scene, const assembly::SceneBody& body
     if (sound) structure = fem::assemble(model);
   }
   return {.name = body.name,
-          .kind = "fe",
+          .kind = model.matrix_parts.empty() ? "fe" : "matrices",
           .nodes = static_cast<int>(model.nodes.size()),
           .elements = static_cast<int>(model.elements.size()),
           .dofs = structure.n(),

@@ -25,6 +25,7 @@ std::map<std::string, std::size_t> contents(const fem::Model& model) {
   const auto add = [&](const char* name, std::size_t count) {
     if (count > 0) counts[name] = count;
   };
+  add("parts given as matrices", model.matrix_parts.size());
   add("rigid links", model.rigid_links.size());
   add("averaging links", model.average_links.size());
   add("linear constraints", model.constraints.size());

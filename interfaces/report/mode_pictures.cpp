@@ -4,8 +4,10 @@
 
 #include <Eigen/Geometry>
 #include <numbers>
+#include <set>
 
 #include "assembly/build.hpp"
+#include "fem/matrix_part.hpp"
 
 namespace tenon::report {
 namespace {
@@ -32,6 +34,10 @@ class Cells {
       if (const auto* tria = std::get_if<fem::Tria3>(&element))
         add(CellType::triangle, {tria->nodes[0], tria->nodes[1], tria->nodes[2]}, first);
     }
+    std::set<int> points;  // matrices have no cells: their nodes are shown
+    for (const auto& part : model.matrix_parts)
+      for (const fem::Dof& dof : part->dofs)
+        if (fem::position(model, dof.node); points.insert(dof.node).second) add(CellType::vertex, {dof.node}, first);
   }
 
  private:
