@@ -38,12 +38,14 @@ void move(fem::Beam& e, const Move& m) {
 
 void move(fem::Quad4& e, const Move& m) {
   for (int& node : e.nodes) node += m.node;
+  e.material_axis = m.R * e.material_axis;
   e.section += m.shell_section;
   e.material += m.material;
 }
 
 void move(fem::Tria3& e, const Move& m) {
   for (int& node : e.nodes) node += m.node;
+  e.material_axis = m.R * e.material_axis;
   e.section += m.shell_section;
   e.material += m.material;
 }

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "fem/elements/shell_theory.hpp"
 #include "fem/error.hpp"
 #include "fem/structure.hpp"
 
@@ -53,16 +54,22 @@ void add(const Model& model, const Beam& beam, Moments& sum) {
                          section.Iyz * (y * z.transpose() + z * y.transpose()));
 }
 
-/// A point of a shell: mass per area × area, and the rotary inertia ρt³/12 about the two axes in its plane.
-void add_shell_point(const Model& model, int material, int section, const Vec3& x, const Vec3& normal, double area,
+/// The section of a shell as its elements see it.
+template <typename Shell>
+ShellTheory theory_of(const Model& model, const Shell& shell) {
+  return shell_theory(model.shell_sections[static_cast<std::size_t>(shell.section)],
+                      model.materials[static_cast<std::size_t>(shell.material)], "shell", shell.id);
+}
+
+/// A point of a shell: mass per area × area, at its height, and the rotary inertia about the two axes in its plane.
+void add_shell_point(const ShellTheory& theory, double offset, const Vec3& x, const Vec3& normal, double area,
                      Moments& sum) {
-  const ShellSection& s = model.shell_sections[static_cast<std::size_t>(section)];
-  const double rho = model.materials[static_cast<std::size_t>(material)].rho;
-  sum.add_point((rho * s.thickness + s.nsm) * area, x);
-  sum.rotary += rho * std::pow(s.thickness, 3) / 12.0 * area * (Mat3::Identity() - normal * normal.transpose());
+  sum.add_point(theory.mass * area, x + (offset + theory.mass_height) * normal);
+  sum.rotary += theory.rotary * area * (Mat3::Identity() - normal * normal.transpose());
 }
 
 void add(const Model& model, const Quad4& quad, Moments& sum) {
+  const ShellTheory theory = theory_of(model, quad);
   std::array<Vec3, 4> x;
   for (std::size_t i = 0; i < 4; ++i) x[i] = model.nodes[static_cast<std::size_t>(quad.nodes[i])];
   constexpr std::array<double, 3> at{-0.7745966692414834, 0.0, 0.7745966692414834},
@@ -75,17 +82,17 @@ void add(const Model& model, const Quad4& quad, Moments& sum) {
       const Vec3 g_r = 0.25 * ((1 - s) * (x[1] - x[0]) + (1 + s) * (x[2] - x[3]));
       const Vec3 g_s = 0.25 * ((1 - r) * (x[3] - x[0]) + (1 + r) * (x[2] - x[1]));
       const Vec3 n = g_r.cross(g_s);
-      add_shell_point(model, quad.material, quad.section, point, n.normalized(), weight[i] * weight[j] * n.norm(), sum);
+      add_shell_point(theory, quad.offset, point, n.normalized(), weight[i] * weight[j] * n.norm(), sum);
     }
 }
 
 void add(const Model& model, const Tria3& tria, Moments& sum) {
+  const ShellTheory theory = theory_of(model, tria);
   std::array<Vec3, 3> x;
   for (std::size_t i = 0; i < 3; ++i) x[i] = model.nodes[static_cast<std::size_t>(tria.nodes[i])];
   const Vec3 n = 0.5 * (x[1] - x[0]).cross(x[2] - x[0]);
   for (std::size_t i = 0; i < 3; ++i)  // mid-sides integrate quadratics exactly
-    add_shell_point(model, tria.material, tria.section, 0.5 * (x[i] + x[(i + 1) % 3]), n.normalized(), n.norm() / 3.0,
-                    sum);
+    add_shell_point(theory, tria.offset, 0.5 * (x[i] + x[(i + 1) % 3]), n.normalized(), n.norm() / 3.0, sum);
 }
 
 void add(const Model& model, const PointMass& mass, Moments& sum) {

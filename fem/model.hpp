@@ -35,12 +35,24 @@ struct BeamSection {
   double nsm = 0.0;      ///< non-structural mass per length [kg/m]
 };
 
+/// A layer of a laminate, orthotropic in its axes 1, 2.
+struct Ply {
+  double thickness = 0.0;       ///< [m]
+  double angle = 0.0;           ///< from the section's direction 1 to the ply's, about the normal [rad]
+  double E1 = 0.0, E2 = 0.0;    ///< [Pa]
+  double nu12 = 0.0;            ///< −ε₂/ε₁ under σ₁
+  double G12 = 0.0;             ///< [Pa]
+  double G13 = 0.0, G23 = 0.0;  ///< transverse [Pa]; both 0: rigid in transverse shear
+  double rho = 0.0;             ///< [kg/m³]
+};
+
 struct ShellSection {
   std::string name;
-  double thickness = 0.0;          ///< [m]
-  double nsm = 0.0;                ///< non-structural mass per area [kg/m²]
+  double thickness = 0.0;          ///< [m]; of a laminate the sum of its plies'
+  double nsm = 0.0;                ///< non-structural mass per area [kg/m²], in the middle surface
   double bending_ratio = 1.0;      ///< 12 I / t³
   double shear_ratio = 5.0 / 6.0;  ///< κ
+  std::vector<Ply> plies = {};     ///< from −z to z; when given, material and both ratios have no part
 };
 
 /// Which mass matrix a beam gets.
@@ -66,6 +78,8 @@ struct Quad4 {
   int section = 0;
   int material = 0;
   long id = 0;
+  double offset = 0.0;                ///< from the nodes to the middle surface, along the element's normal [m]
+  Vec3 material_axis = Vec3::Zero();  ///< projected on the element: a laminate's direction 1; zero: nodes 1 to 2
 };
 
 struct Tria3 {
@@ -73,6 +87,8 @@ struct Tria3 {
   int section = 0;
   int material = 0;
   long id = 0;
+  double offset = 0.0;                ///< from the nodes to the middle surface, along the element's normal [m]
+  Vec3 material_axis = Vec3::Zero();  ///< projected on the element: a laminate's direction 1; zero: nodes 1 to 2
 };
 
 /// Mass at `offset` from its node, inertia about its own centre of mass, axes of the basic frame.

@@ -20,8 +20,8 @@ struct Convert {
   void operator()(fem::Beam& beam) const {
     for (fem::Vec3& offset : beam.offsets) take(offset, units.to_si(dimension::length));
   }
-  void operator()(fem::Quad4&) const {}
-  void operator()(fem::Tria3&) const {}
+  void operator()(fem::Quad4& quad) const { take(quad.offset, units.to_si(dimension::length)); }
+  void operator()(fem::Tria3& tria) const { take(tria.offset, units.to_si(dimension::length)); }
   void operator()(fem::PointMass& point) const {
     take(point.mass, units.to_si(dimension::mass));
     take(point.inertia, units.to_si(dimension::inertia));
@@ -79,6 +79,11 @@ fem::Model to_si(fem::Model model, const Units& units) {
   for (fem::ShellSection& section : model.shell_sections) {
     take(section.thickness, length);
     take(section.nsm, units.to_si(dimension::mass_per_area));
+    for (fem::Ply& ply : section.plies) {
+      take(ply.thickness, length);
+      for (double* modulus : {&ply.E1, &ply.E2, &ply.G12, &ply.G13, &ply.G23}) take(*modulus, pressure);
+      take(ply.rho, units.to_si(dimension::density));
+    }
   }
   for (fem::Element& element : model.elements) std::visit(Convert{units}, element);
   for (auto& part : model.matrix_parts) part = to_si(*part, units);

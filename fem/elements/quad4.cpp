@@ -21,14 +21,15 @@
 // Drilling, relative to the membrane's rotation ω = ½(v,x − u,y), never to ground (Hughes, Brezzi, CMAME 72 (1989)
 // 105):
 //
-//   ½ G t A (θ̄ − ω̄)² + ½ α G t ∫ (θz − ω)² dA,   α = 10⁻³; bars are means over the element                         (2)
+//   ½ G t A (θ̄ − ω̄)² + ½ α G t ∫ (θz − ω)² dA,   α = min(10⁻³, t²/A); bars are means over the element               (2)
 //
 // The means agree in linear fields and in in-plane bending, so their stiffness may have its natural size G t. It is
 // needed where facets meet at an angle and bending moments pass as drilling ones: without it the twisted beam of
 // MacNeal and Harder comes out 30 % soft. The second term keeps the other three θz patterns from being mechanisms and
 // must be weak: over a curved surface the nodal rotation's part along each facet's normal varies with no strain in the
-// shell, and α = 1 locks the thin hemisphere to a quarter of its deflection. Drilling has no mass: it is condensed
-// statically and however weak adds no mode.
+// shell, and α = 1 locks the thin hemisphere to a quarter of its deflection. t²/A keeps the term of the order of the
+// bending energy, G t³ of a rotation's change over the element, however thin the shell. Drilling has no mass: it is
+// condensed statically and however weak adds no mode.
 //
 // Plate: shell_theory.hpp. In a plane wave of the thin plate, w = exp i(ξx+ηy) on a lattice of a×b rectangles, the
 // element's energy differs from the continuum's, D/2 (ξ²+η²)², by the second-order form
@@ -41,7 +42,8 @@
 //
 //   D/(1+φ) { q_x² ∫h_x² + q_y² ∫h_y² + ¼(3+ν) ∫(q_x h_y + q_y h_x)² },   q_x = Σ γ_i β_xi,  q_y = Σ γ_i β_yi (4)
 //
-// zero for constant curvature by (1). Like the edge rotations it fades as φ → ∞, where plain MITC4 remains.
+// zero for constant curvature by (1). Like the edge rotations it fades as φ → ∞, where plain MITC4 remains. (3) is that
+// of isotropic plates: a laminate goes without (4).
 namespace tenon::fem {
 namespace {
 
@@ -52,8 +54,6 @@ using Column12 = Eigen::Matrix<double, 12, 1>;
 using Mat12 = Eigen::Matrix<double, 12, 12>;
 
 const Vec4 corner_r(-1.0, 1.0, 1.0, -1.0), corner_s(-1.0, -1.0, 1.0, 1.0), corner_h(1.0, -1.0, 1.0, -1.0);
-
-constexpr double alpha = 1e-3;  // of (2)
 
 /// The quad flattened onto its mean plane.
 struct FlatQuad {
@@ -137,47 +137,79 @@ Points points(const FlatQuad& flat) {
   return p;
 }
 
+using Strains2 = Eigen::Matrix<double, 3, 2>;
+using Strains4 = Eigen::Matrix<double, 3, 4>;
+
+/// What bending couples to: mean strain B₀ u, hourglass strains and incompatible modes at the Gauss points.
+struct Membrane {
+  Mat12 K;  ///< over (u v θz)
+  Eigen::Matrix<double, 3, 12> B0 = decltype(B0)::Zero();
+  Eigen::Matrix<double, 2, 12> q = decltype(q)::Zero();
+  std::array<Strains2, 4> H;  ///< condensed: H − G (∫G'AG)⁻¹ ∫G'AH
+  std::array<Strains4, 4> G;
+  Mat4 GG_inverse;  ///< (∫G'AG)⁻¹
+};
+
 /// Stiffness over (u v θz). By (1) the strain is B₀ u + H q, q = (Σγ_i u_i, Σγ_i v_i), H = [h_x 0; 0 h_y; h_y h_x], and
 /// with ∫H = ∫G = 0 (G: gradients of the incompatible modes) the condensed stiffness is
-///   A B₀' D B₀ + γγ' ⊗ S,   S = ∫H'DH − ∫H'DG (∫G'DG)⁻¹ ∫G'DH
-Mat12 membrane_stiffness(const ShellTheory& theory, const Points& points, const Vec4& gamma) {
+///   A B₀' D B₀ + q' S q,   S = ∫H'DH − ∫H'DG (∫G'DG)⁻¹ ∫G'DH
+Membrane membrane_stiffness(const ShellTheory& theory, const Points& points, const Vec4& gamma) {
   const Mat3& D = theory.membrane;
   const auto strain = [](const Eigen::Vector2d& gradient) {
-    return (Eigen::Matrix<double, 3, 2>() << gradient.x(), 0.0, 0.0, gradient.y(), gradient.y(), gradient.x())
-        .finished();
+    return (Strains2() << gradient.x(), 0.0, 0.0, gradient.y(), gradient.y(), gradient.x()).finished();
   };
   Mat2 HH = Mat2::Zero();
   Eigen::Matrix<double, 2, 4> HG = Eigen::Matrix<double, 2, 4>::Zero();
   Mat4 GG = Mat4::Zero();
-  Mat12 K = Mat12::Zero();
+  Membrane m;
   for (std::size_t g = 0; g < 4; ++g) {
     const Point& p = points.gauss[g];
     const double scale = -2.0 * points.centre.dA / p.dA;
-    const Eigen::Matrix<double, 3, 2> H = strain(p.grad_h), DH = p.dA * D * H;
-    Eigen::Matrix<double, 3, 4> G;
-    G << strain(scale * points.r[g] * points.centre.J_inv.col(0)),
+    const Strains2 H = strain(p.grad_h), DH = p.dA * D * H;
+    m.G[g] << strain(scale * points.r[g] * points.centre.J_inv.col(0)),
         strain(scale * points.s[g] * points.centre.J_inv.col(1));
-    const Eigen::Matrix<double, 3, 4> DG = p.dA * D * G;
+    m.H[g] = H;
+    const Strains4 DG = p.dA * D * m.G[g];
     HH.noalias() += H.transpose() * DH;
     HG.noalias() += H.transpose() * DG;
-    GG.noalias() += G.transpose() * DG;
+    GG.noalias() += m.G[g].transpose() * DG;
   }
-  const Mat2 S = HH - HG * GG.inverse() * HG.transpose();
-  const double area = 4.0 * points.centre.dA;
-  const Vec4 &b = points.centre.N_x, &c = points.centre.N_y;
-  for (int i = 0; i < 4; ++i)
-    for (int j = 0; j < 4; ++j) {
-      const double gg = gamma[i] * gamma[j];
-      K(3 * i, 3 * j) += area * (D(0, 0) * b[i] * b[j] + D(2, 2) * c[i] * c[j]) + gg * S(0, 0);
-      K(3 * i + 1, 3 * j + 1) += area * (D(1, 1) * c[i] * c[j] + D(2, 2) * b[i] * b[j]) + gg * S(1, 1);
-      K(3 * i, 3 * j + 1) += area * (D(0, 1) * b[i] * c[j] + D(2, 2) * c[i] * b[j]) + gg * S(0, 1);
-      K(3 * i + 1, 3 * j) += area * (D(0, 1) * c[i] * b[j] + D(2, 2) * b[i] * c[j]) + gg * S(1, 0);
-    }
+  m.GG_inverse = GG.inverse();
+  const Eigen::Matrix<double, 4, 2> condensed = m.GG_inverse * HG.transpose();
+  const Mat2 S = HH - HG * condensed;
+  for (std::size_t g = 0; g < 4; ++g) m.H[g] -= m.G[g] * condensed;
+  for (int i = 0; i < 4; ++i) {
+    const double b = points.centre.N_x[i], c = points.centre.N_y[i];
+    m.B0.block<3, 2>(0, 3 * i) << b, 0.0, 0.0, c, c, b;
+    m.q(0, 3 * i) = m.q(1, 3 * i + 1) = gamma[i];
+  }
+  const Eigen::Matrix<double, 3, 12> DB = (4.0 * points.centre.dA * D).lazyProduct(m.B0);
+  const Eigen::Matrix<double, 2, 12> Sq = S.lazyProduct(m.q);
+  m.K = m.B0.transpose().lazyProduct(DB);
+  m.K.noalias() += m.q.transpose().lazyProduct(Sq);
+  return m;
+}
+
+/// With B ≠ 0 the incompatible modes a also follow bending: minimal over a, ∫ εᵀBκ + ½ εᵀAε is
+///   uᵀ Σ (B₀ + H q)ᵀ B κ − ½ Pᵀ (∫G'AG)⁻¹ P,   P = ∫ G' B κ
+/// `curvature`: κ at the Gauss points over (w θx θy).
+Mat12 coupling_stiffness(const ShellTheory& theory, const Points& points, const Membrane& membrane,
+                         const std::array<Eigen::Matrix<double, 12, 3>, 4>& curvature, Mat12& K_plate) {
+  Mat12 K = Mat12::Zero();
+  Eigen::Matrix<double, 12, 4> P = Eigen::Matrix<double, 12, 4>::Zero();
+  for (std::size_t g = 0; g < 4; ++g) {
+    const Eigen::Matrix<double, 12, 3> kB = curvature[g].lazyProduct(points.gauss[g].dA * theory.coupling);
+    const Eigen::Matrix<double, 3, 12> strain = membrane.B0 + membrane.H[g].lazyProduct(membrane.q);
+    K.noalias() += strain.transpose().lazyProduct(kB.transpose());
+    P.noalias() += kB.lazyProduct(membrane.G[g]);
+  }
+  K_plate.noalias() -= Eigen::Matrix<double, 12, 4>(P.lazyProduct(membrane.GG_inverse)).lazyProduct(P.transpose());
   return K;
 }
 
 /// Energy (2), added over (u v θz).
 void add_drilling(const ShellTheory& theory, const Points& points, Mat12& K) {
+  const double area = 4.0 * points.centre.dA, t = theory.thickness, alpha = std::min(1e-3, t * t / area);
   Column12 mean = Column12::Zero();
   for (const Point& p : points.gauss) {
     Column12 relative;  // θz − ½ (v,x − u,y)
@@ -185,7 +217,6 @@ void add_drilling(const ShellTheory& theory, const Points& points, Mat12& K) {
     K.noalias() += (alpha * theory.in_plane_shear * p.dA * relative) * relative.transpose();
     mean += p.dA * relative;
   }
-  const double area = 4.0 * points.centre.dA;
   K.noalias() += (theory.in_plane_shear / area * mean) * mean.transpose();
 }
 
@@ -198,7 +229,7 @@ void add_hourglass(const ShellTheory& theory, const Points& points, const Vec4& 
     xy += p.dA * p.grad_h.x() * p.grad_h.y();
   }
   const double area = 4.0 * points.centre.dA, D = theory.bending(0, 0);
-  const double fade = theory.shear > 0.0 ? 1.0 / (1.0 + 12.0 * D / (theory.shear * area)) : 1.0;
+  const double fade = theory.shear_rigid() ? 1.0 : 1.0 / (1.0 + 12.0 * D / (theory.shear(0, 0) * area));
   const double twist = 0.5 * (3.0 + theory.nu);
   const double k_xx = fade * D * (2.0 * xx + twist * yy), k_yy = fade * D * (2.0 * yy + twist * xx);
   const double k_xy = fade * D * twist * xy;
@@ -224,9 +255,9 @@ Bubbles bubbles(double r, double s) {
           {-0.5 * br, -s * (1.0 + r), 0.5 * br, -s * (1.0 - r)}};
 }
 
-/// Stiffness and mass over (w θx θy); `NN` is ∫ N_i N_j dA.
+/// Stiffness and mass over (w θx θy), and the curvatures at the Gauss points; `NN` is ∫ N_i N_j dA.
 void plate(const ShellTheory& theory, const FlatQuad& flat, const Points& points, const Vec4& gamma, const Mat4& NN,
-           Mat12& K, Mat12& M) {
+           Mat12& K, Mat12& M, std::array<Eigen::Matrix<double, 12, 3>, 4>& curvature) {
   std::array<PlateEdge, 4> edge;
   for (int k = 0; k < 4; ++k) {
     const int j = (k + 1) % 4;
@@ -237,7 +268,8 @@ void plate(const ShellTheory& theory, const FlatQuad& flat, const Points& points
   for (std::size_t g = 0; g < 4; ++g) {
     const Point& p = points.gauss[g];
     const double r = points.r[g], s = points.s[g];
-    Eigen::Matrix<double, 12, 3> B = Eigen::Matrix<double, 12, 3>::Zero();        // columns: curvatures
+    Eigen::Matrix<double, 12, 3>& B = curvature[g];  // columns: curvatures
+    B.setZero();
     Eigen::Matrix<double, 12, 2> natural = Eigen::Matrix<double, 12, 2>::Zero();  // γ_r, γ_s
     Column12 w = Column12::Zero();                                                // linked deflection
     for (int i = 0; i < 4; ++i) {
@@ -263,44 +295,56 @@ void plate(const ShellTheory& theory, const FlatQuad& flat, const Points& points
     const Eigen::Matrix<double, 12, 3> BD = B.lazyProduct(p.dA * theory.bending);
     const Eigen::Matrix<double, 12, 2> shear = natural.lazyProduct(p.J_inv.transpose());
     K.noalias() += BD.lazyProduct(B.transpose());
-    K.noalias() += Eigen::Matrix<double, 12, 2>(p.dA * theory.shear * shear).lazyProduct(shear.transpose());
+    K.noalias() += Eigen::Matrix<double, 12, 2>(shear.lazyProduct(p.dA * theory.shear)).lazyProduct(shear.transpose());
     M.noalias() += (p.dA * theory.mass * w) * w.transpose();
   }
-  add_hourglass(theory, points, gamma, K);
+  if (theory.isotropic) add_hourglass(theory, points, gamma, K);
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 4; ++j)
       for (int a = 1; a < 3; ++a) M(3 * i + a, 3 * j + a) += theory.rotary * NN(i, j);
+}
+
+ShellTheory theory_of(const Quad4& quad, const ShellSection& section, const Material& material,
+                      std::span<const Vec3> nodes, const FlatQuad& flat) {
+  const auto at = [&](std::size_t i) -> const Vec3& { return nodes[static_cast<std::size_t>(quad.nodes[i])]; };
+  return shell_theory(section, material, quad.material_axis, at(1) - at(0), flat.R, "quad", quad.id);
 }
 
 }  // namespace
 
 void quad4_matrices(const Quad4& quad, const ShellSection& section, const Material& material,
                     std::span<const Vec3> nodes, ElementMatrices& out) {
-  const ShellTheory theory = shell_theory(section, material, "quad", quad.id);
   const FlatQuad flat = flatten(quad, nodes);
+  const ShellTheory theory = theory_of(quad, section, material, nodes, flat);
   const Points gauss = points(flat);
 
   Mat4 NN = Mat4::Zero();
   for (const Point& p : gauss.gauss) NN.noalias() += p.dA * p.N * p.N.transpose();
   const Point& centre = gauss.centre;
   const Vec4 gamma = 0.25 * (corner_h - corner_h.dot(flat.x) * centre.N_x - corner_h.dot(flat.y) * centre.N_y);  // (1)
-  Mat12 K_membrane = membrane_stiffness(theory, gauss, gamma);
-  add_drilling(theory, gauss, K_membrane);
-  Mat12 K_plate, M_plate;
-  plate(theory, flat, gauss, gamma, NN, K_plate, M_plate);
+  Membrane membrane = membrane_stiffness(theory, gauss, gamma);
+  add_drilling(theory, gauss, membrane.K);
+  Mat12 K_plate, M_plate, K_coupling;
+  std::array<Eigen::Matrix<double, 12, 3>, 4> curvature;
+  plate(theory, flat, gauss, gamma, NN, K_plate, M_plate, curvature);
+  if (theory.coupled) K_coupling = coupling_stiffness(theory, gauss, membrane, curvature, K_plate);
 
-  shell_to_basic_frame<4>(K_membrane, K_plate, flat.R, flat.arms, out.K);
+  std::array<Vec3, 4> arms = flat.arms;
+  for (Vec3& arm : arms) arm.z() += quad.offset;
+  shell_to_basic_frame<4>(membrane.K, K_plate, flat.R, arms, out.K, theory.coupled ? &K_coupling : nullptr);
   Mat12 M_membrane = Mat12::Zero();
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 4; ++j) M_membrane(3 * i, 3 * j) = M_membrane(3 * i + 1, 3 * j + 1) = theory.mass * NN(i, j);
-  shell_to_basic_frame<4>(M_membrane, M_plate, flat.R, flat.arms, out.M);
+  for (Vec3& arm : arms) arm.z() += theory.mass_height;
+  shell_to_basic_frame<4>(M_membrane, M_plate, flat.R, arms, out.M);
 }
 
 void quad4_geometric_stiffness(const Quad4& quad, const ShellSection& section, const Material& material,
                                std::span<const Vec3> nodes, const Eigen::Ref<const Eigen::VectorXd>& u,
                                ElementMatrices::Matrix& out) {
-  const ShellTheory theory = shell_theory(section, material, "quad", quad.id);
   const FlatQuad flat = flatten(quad, nodes);
+  const ShellTheory theory = theory_of(quad, section, material, nodes, flat);
+  refuse_stress(theory, quad.offset, section.name, "quad", quad.id);
   const Points gauss = points(flat);
 
   Vec3 strain = Vec3::Zero();  // B₀ u, the element's mean

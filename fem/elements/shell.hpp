@@ -9,10 +9,11 @@ namespace tenon::fem {
 
 /// Stiffness and mass of a flat four-node shell, 24×24; a warped one lies in its mean plane, its nodes joined to the
 /// corners by rigid arms. Membrane with incompatible modes, MITC4 shear with edge rotations (exact thin limit),
-/// drilling stiffness relative to the membrane's rotation, no drilling mass. Theory: shell_theory.hpp, quad4.cpp.
+/// drilling stiffness relative to the membrane's rotation, no drilling mass. Laminates couple membrane and bending; an
+/// offset carries the middle surface off the nodes along the normal. Theory: shell_theory.hpp, laminate.hpp, quad4.cpp.
 /// @param nodes  positions of all nodes of the model [m]
 /// @throws ModelError naming the element: zero area, folded or crossed corners, thickness, E or G ≤ 0, ν outside
-///         (−1, 1/2], negative ratios or mass.
+///         (−1, 1/2], negative ratios or mass; a ply that is none, a laminate's direction along the normal.
 void quad4_matrices(const Quad4& quad, const ShellSection& section, const Material& material,
                     std::span<const Vec3> nodes, ElementMatrices& out);
 
@@ -21,11 +22,13 @@ void quad4_matrices(const Quad4& quad, const ShellSection& section, const Materi
 void tria3_matrices(const Tria3& tria, const ShellSection& section, const Material& material,
                     std::span<const Vec3> nodes, ElementMatrices& out);
 
-/// Geometric stiffness (24×24, of a triangle 18×18) of the element's mean membrane stress resultants N [N/m] that the displacement u causes:
+/// Geometric stiffness (24×24, of a triangle 18×18) of the element's mean membrane stress resultants N [N/m] that the
+/// displacement u causes:
 ///   Σ over u, v, w of ∫ ∇u_iᵀ N ∇u_i dA,
-/// u, v bilinear (in a triangle linear), w with the linked deflections of the edges. Stress that varies over the element, moments, shear and
-/// the second-order rotation of a warped quad's arms are left out.
-/// @param u  the element's displacements, basic frame  @throws ModelError as above
+/// u, v bilinear (in a triangle linear), w with the linked deflections of the edges. Stress that varies over the
+/// element, moments, shear and the second-order rotation of a warped quad's arms are left out.
+/// @param u  the element's displacements, basic frame
+/// @throws ModelError as above, and for an offset or a laminate that couples membrane and bending
 void quad4_geometric_stiffness(const Quad4& quad, const ShellSection& section, const Material& material,
                                std::span<const Vec3> nodes, const Eigen::Ref<const Eigen::VectorXd>& u,
                                ElementMatrices::Matrix& out);

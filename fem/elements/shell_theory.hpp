@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <string_view>
 
 #include "fem/elements/basic_frame.hpp"
@@ -15,7 +16,7 @@
 /// carries Δβ 4ξ(1−ξ), and its shear is constant, γ̄. Compatibility of w along the edge and M_t' = V of a plate strip
 /// say
 ///   g + (2/3) l Δβ = l γ̄,   g = w_j − w_i + (l/2)(β_ti + β_tj)                                                     (1)
-///   γ̄ = −(2/3) φ Δβ,        φ = 12 D / (κ G t l²)                                                                  (2)
+///   γ̄ = −(2/3) φ Δβ,        φ = 12 D / (κ G t l²), both along the edge                                             (2)
 /// so that  l γ̄ = g φ/(1+φ)  and  Δβ = −(3/2l) g/(1+φ)                                                              (3)
 /// Thick (φ → ∞): no edge rotation, and γ̄ tied to the element by MITC interpolation is MITC4 / MITC3 itself. Thin
 /// (φ → 0): γ̄ → 0 on each edge without a penalty, nothing locks and no stiffness grows as 1/t². A strip of such
@@ -26,19 +27,37 @@
 /// what (1) says of a bent edge without net shear. Rigid motions have β_tj = β_ti: their masses stay exact.
 namespace tenon::fem {
 
-/// The shell's section stiffnesses and masses per unit area.
+/// The shell's section stiffnesses and masses per unit area. Element axes: N = A ε + B κ, M = B ε + D κ, Q = S γ.
 struct ShellTheory {
-  Mat3 membrane;          ///< t C, C plane stress [N/m]
-  Mat3 bending;           ///< (12I/t³) t³/12 C [N m]
-  double shear;           ///< κ G t [N/m]; 0 stands for rigid in shear
-  double in_plane_shear;  ///< G t [N/m]
-  double nu;
-  double mass;    ///< ρ t + nsm [kg/m²]
-  double rotary;  ///< ρ t³/12 [kg]
+  Mat3 membrane;          ///< A; t C, C plane stress [N/m]
+  Mat3 coupling;          ///< B [N]
+  Mat3 bending;           ///< D; (12I/t³) t³/12 C [N m]
+  Eigen::Matrix2d shear;  ///< S; κ G t [N/m]; 0 stands for rigid in shear
+  Mat3 bending_free;      ///< D − B A⁻¹ B: bending without membrane force [N m]
+  double in_plane_shear;  ///< G t, of a laminate the mean over all directions [N/m]
+  double nu;              ///< ν, of a laminate A12 / √(A11 A22)
+  double thickness;       ///< [m]
+  double mass;            ///< ρ t + nsm [kg/m²]
+  double rotary;          ///< ρ t³/12, about the mass's own height [kg]
+  double mass_height;     ///< of the centre of mass above the middle surface [m]
+  bool coupled = false;   ///< B ≠ 0
+  bool isotropic = true;
+
+  bool shear_rigid() const { return !(shear(0, 0) > 0.0); }
 };
 
-/// `kind` and `id` name the element in messages. @throws ModelError for values no shell can have
+/// In the section's own axes. `kind` and `id` name the element in messages.
+/// @throws ModelError for values no shell can have
 ShellTheory shell_theory(const ShellSection& section, const Material& material, std::string_view kind, long id);
+
+/// The same in an element's axes R: direction 1 of a laminate is the projection of `material_axis`, or with a zero one
+/// of `side`, from node 1 to node 2 (both in the basic frame). @throws ModelError where that has none
+ShellTheory shell_theory(const ShellSection& section, const Material& material, const Vec3& material_axis,
+                         const Vec3& side, const Mat3& R, std::string_view kind, long id);
+
+/// @throws ModelError naming the element: geometric stiffness knows no offset and no coupling of membrane and bending
+void refuse_stress(const ShellTheory& theory, double offset, const std::string& section, std::string_view kind,
+                   long id);
 
 /// An edge's part in bending and shear, (1)–(3).
 struct PlateEdge {
@@ -91,11 +110,13 @@ void add_in_plane(Square& K, const Gradients& gradients, const Eigen::Matrix2d& 
     }
 }
 
-/// Joins a membrane matrix over (u v θz) and a plate matrix over (w θx θy) and carries them to the basic frame.
+/// Joins a membrane matrix over (u v θz) and a plate matrix over (w θx θy), with `coupling` between the two if there is
+/// one, and carries them to the basic frame.
 template <int N>
 void shell_to_basic_frame(const Eigen::Matrix<double, 3 * N, 3 * N>& membrane,
                           const Eigen::Matrix<double, 3 * N, 3 * N>& plate, const Mat3& R,
-                          const std::array<Vec3, N>& arms, ElementMatrices::Matrix& out) {
+                          const std::array<Vec3, N>& arms, ElementMatrices::Matrix& out,
+                          const Eigen::Matrix<double, 3 * N, 3 * N>* coupling = nullptr) {
   static constexpr std::array<int, 3> in_plane{0, 1, 5}, across{2, 3, 4};
   Eigen::Matrix<double, 6 * N, 6 * N> local = Eigen::Matrix<double, 6 * N, 6 * N>::Zero();
   for (int j = 0; j < N; ++j)
@@ -105,6 +126,9 @@ void shell_to_basic_frame(const Eigen::Matrix<double, 3 * N, 3 * N>& membrane,
           const auto ka = static_cast<std::size_t>(a), kb = static_cast<std::size_t>(b);
           local(6 * i + in_plane[ka], 6 * j + in_plane[kb]) = membrane(3 * i + a, 3 * j + b);
           local(6 * i + across[ka], 6 * j + across[kb]) = plate(3 * i + a, 3 * j + b);
+          if (coupling)
+            local(6 * j + across[kb], 6 * i + in_plane[ka]) = local(6 * i + in_plane[ka], 6 * j + across[kb]) =
+                (*coupling)(3 * i + a, 3 * j + b);
         }
   to_basic_frame<N>(local, R, arms, out);
 }

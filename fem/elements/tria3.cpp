@@ -105,8 +105,8 @@ Mat9 membrane_stiffness(const ShellTheory& theory, const FlatTria& f) {
   return K;
 }
 
-/// Stiffness and mass over (w θx θy).
-void plate(const ShellTheory& theory, const FlatTria& f, Mat9& K, Mat9& M) {
+/// Stiffness and mass over (w θx θy), and the mean curvatures as columns.
+void plate(const ShellTheory& theory, const FlatTria& f, Mat9& K, Mat9& M, Eigen::Matrix<double, 9, 3>& mean) {
   Vec3 N_x, N_y;
   std::array<PlateEdge, 3> edge;  // 1-2, 2-3, 3-1
   for (int i = 0; i < 3; ++i) {
@@ -117,6 +117,7 @@ void plate(const ShellTheory& theory, const FlatTria& f, Mat9& K, Mat9& M) {
   }
   K.setZero();
   M.setZero();
+  mean.setZero();
   const double dA = f.A / 3.0;
   for (int g = 0; g < 3; ++g) {
     Vec3 N = Vec3::Constant(1.0 / 6.0);
@@ -144,9 +145,10 @@ void plate(const ShellTheory& theory, const FlatTria& f, Mat9& K, Mat9& M) {
       add_g(gamma, Eigen::Vector2d(e.shear * whitney), e, i, j);
       add_link(w, 4.0 * N[i] * N[j], e, i, j);
     }
+    mean += B / 3.0;
     const Eigen::Matrix<double, 9, 3> BD = B.lazyProduct(dA * theory.bending);
     K.noalias() += BD.lazyProduct(B.transpose());
-    K.noalias() += Eigen::Matrix<double, 9, 2>(dA * theory.shear * gamma).lazyProduct(gamma.transpose());
+    K.noalias() += Eigen::Matrix<double, 9, 2>(gamma.lazyProduct(dA * theory.shear)).lazyProduct(gamma.transpose());
     M.noalias() += (dA * theory.mass * w) * w.transpose();
   }
 }
@@ -155,25 +157,33 @@ void plate(const ShellTheory& theory, const FlatTria& f, Mat9& K, Mat9& M) {
 
 void tria3_matrices(const Tria3& tria, const ShellSection& section, const Material& material,
                     std::span<const Vec3> nodes, ElementMatrices& out) {
-  const ShellTheory theory = shell_theory(section, material, "triangle", tria.id);
   const FlatTria flat = flatten(tria, nodes);
-  const std::array<Vec3, 3> no_arms{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+  const ShellTheory theory =
+      shell_theory(section, material, tria.material_axis, flat.R.col(0), flat.R, "triangle", tria.id);
 
   const Mat9 K_membrane = membrane_stiffness(theory, flat);
-  Mat9 K_plate, M_plate, M_membrane = Mat9::Zero();
-  plate(theory, flat, K_plate, M_plate);
+  Mat9 K_plate, M_plate, K_coupling, M_membrane = Mat9::Zero();
+  Eigen::Matrix<double, 9, 3> kappa;
+  plate(theory, flat, K_plate, M_plate, kappa);
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)  // ∫ N_i N_j dA = A (1 + δ_ij)/12
       M_membrane(3 * i, 3 * j) = M_membrane(3 * i + 1, 3 * j + 1) = theory.mass * flat.A * (i == j ? 2.0 : 1.0) / 12.0;
-  shell_to_basic_frame<3>(K_membrane, K_plate, flat.R, no_arms, out.K);
-  shell_to_basic_frame<3>(M_membrane, M_plate, flat.R, no_arms, out.M);
+  if (theory.coupled)  // A ε̄ᵀ B κ̄, ε̄ = Lᵀu/A
+    K_coupling = Eigen::Matrix<double, 9, 3>(lumping(flat).lazyProduct(theory.coupling)).lazyProduct(kappa.transpose());
+  std::array<Vec3, 3> arms;
+  arms.fill(Vec3(0.0, 0.0, tria.offset));
+  shell_to_basic_frame<3>(K_membrane, K_plate, flat.R, arms, out.K, theory.coupled ? &K_coupling : nullptr);
+  arms.fill(Vec3(0.0, 0.0, tria.offset + theory.mass_height));
+  shell_to_basic_frame<3>(M_membrane, M_plate, flat.R, arms, out.M);
 }
 
 void tria3_geometric_stiffness(const Tria3& tria, const ShellSection& section, const Material& material,
                                std::span<const Vec3> nodes, const Eigen::Ref<const Eigen::VectorXd>& u,
                                ElementMatrices::Matrix& out) {
-  const ShellTheory theory = shell_theory(section, material, "triangle", tria.id);
   const FlatTria flat = flatten(tria, nodes);
+  const ShellTheory theory =
+      shell_theory(section, material, tria.material_axis, flat.R.col(0), flat.R, "triangle", tria.id);
+  refuse_stress(theory, tria.offset, section.name, "triangle", tria.id);
   Column9 in_plane;
   Vec3 N_x, N_y;
   std::array<PlateEdge, 3> edge;

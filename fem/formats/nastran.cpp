@@ -124,7 +124,10 @@ void scale_masses(NastranDeck& deck) {
   const double factor = deck.mass_factor;
   for (Material& material : deck.model.materials) material.rho *= factor;
   for (BeamSection& section : deck.model.beam_sections) section.nsm *= factor;
-  for (ShellSection& section : deck.model.shell_sections) section.nsm *= factor;
+  for (ShellSection& section : deck.model.shell_sections) {
+    section.nsm *= factor;
+    for (Ply& ply : section.plies) ply.rho *= factor;
+  }
   for (Element& element : deck.model.elements)
     if (PointMass* p = std::get_if<PointMass>(&element)) {
       p->mass *= factor;

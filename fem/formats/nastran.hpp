@@ -49,6 +49,9 @@ struct NastranDeck {
 /// PSHELL: blank MID2 gives bending_ratio 0; blank MID3 means rigid in shear, taken as shear_ratio 1000; MID2 and MID3
 /// that differ from MID1 scale the two ratios.
 ///
+/// PCOMP: plies of MAT8 or MAT1 in the axes of THETA or MCID, Z0 and ZOFFS become the element's offset; LAM blank or
+/// SYM.
+///
 /// Scalar points. An SPOINT that the selected MPCs name becomes a node whose first dof is the scalar; others only stand
 /// in the losses. A scalar of the q-set is a coordinate of the reduced body, not a dof of the model: it has no
 /// stiffness and no mass, stays zero in a fixed-interface run, and an equation between it and a grid that no element

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "fem/formats/nastran/properties.hpp"
 
@@ -47,6 +48,7 @@ struct ElementReader {
   Vec3 orientation(const Card& card, int node_a) const;
   std::string offset_codes(const Card& card) const;
   Vec3 offset(const Card& card, int first, const char* label, char code, int node) const;
+  Vec3 material_axis(const Card& card, int field, const Vec3& a, const Vec3& b, const Vec3& normal) const;
   template <class Shell>
   void shell(const Card& card, std::size_t block);
   void point_mass(const Card& card);
@@ -118,13 +120,22 @@ void ElementReader::bar(const Card& card) {
   draft.deck.model.elements.emplace_back(beam);
 }
 
+// THETA in degrees from the side G1-G2 about the normal, or MCID, whose x axis it is; zero for a blank
+Vec3 ElementReader::material_axis(const Card& card, int field, const Vec3& a, const Vec3& b, const Vec3& normal) const {
+  if (card.blank(field)) return Vec3::Zero();
+  if (const auto system = parse_integer(card.at(field))) return draft.frame_at(card, field, "MCID", *system, a).col(0);
+  const double theta = card.real(field, "THETA") * std::numbers::pi / 180.0;
+  const Vec3 n = normal.normalized(), x = (b - a - n * n.dot(b - a)).normalized();
+  return std::cos(theta) * x + std::sin(theta) * n.cross(x);
+}
+
 template <class Shell>
 void ElementReader::shell(const Card& card, std::size_t block) {
   constexpr std::array<const char*, 4> labels{"G1", "G2", "G3", "G4"};
   Shell shell;
   shell.id = card.id(1, "EID");
   if (!known.admit(shell.id, card, draft.losses)) return;
-  const Property& property = Properties::find(properties.shells, "PSHELL", card, 2);
+  const Property& property = Properties::find(properties.shells, "PSHELL or PCOMP", card, 2);
   shell.section = property.section;
   shell.material = property.material;
   const int n = static_cast<int>(shell.nodes.size());
@@ -138,10 +149,8 @@ void ElementReader::shell(const Card& card, std::size_t block) {
     carry(node);
   }
   const auto& section = draft.deck.model.shell_sections[static_cast<std::size_t>(shell.section)];
-  // behind the corners: THETA (without effect on isotropic material), ZOFFS; on the second line TFLAG and T1..
-  if (card.real(4 + n, "ZOFFS", 0.0) != 0.0)
-    draft.losses.add_physical(card.name() + " ZOFFS", "the shell's middle surface is read as lying on its grids",
-                              card.place(4 + n));
+  // behind the corners: THETA, ZOFFS; on the second line TFLAG and T1..
+  shell.offset = card.real(4 + n, "ZOFFS", 0.0) + property.offset;
   const double unit = card.integer(10, "TFLAG", 0) == 1 ? section.thickness : 1.0;
   for (int i = 11; i < 11 + n; ++i)
     if (!card.blank(i) && std::abs(card.real(i, "T") * unit - section.thickness) > 1e-6 * section.thickness)
@@ -153,6 +162,8 @@ void ElementReader::shell(const Card& card, std::size_t block) {
   if (n == 4 ? !(diagonal.cross(other).norm() > 1e-12 * size * size)
              : !(diagonal.cross(at(shell.nodes[1]) - p).norm() > 1e-12 * size * size))
     card.refuse(3, fmt::format("{} has no area", shell.id), "Correct its grids");
+  if (!section.plies.empty())
+    shell.material_axis = material_axis(card, 3 + n, p, at(shell.nodes[1]), diagonal.cross(other));
   cells.add(block, shell.nodes, shell.id, section.name);
   draft.deck.model.elements.emplace_back(shell);
 }

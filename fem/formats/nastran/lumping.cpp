@@ -14,19 +14,28 @@ class Massless {
   Massless(std::vector<T>& all, double T::*mass) : all_(all), mass_(mass), copy_(all.size(), -1) {}
 
   int of(int index) {
-    if (all_[static_cast<std::size_t>(index)].*mass_ == 0.0) return index;
+    if (has_no_mass(all_[static_cast<std::size_t>(index)])) return index;
     int& copy = copy_[static_cast<std::size_t>(index)];
     if (copy < 0) {
       copy = static_cast<int>(all_.size());
       T light = all_[static_cast<std::size_t>(index)];
       light.name += ", mass lumped";
       light.*mass_ = 0.0;
+      if constexpr (std::is_same_v<T, ShellSection>)
+        for (Ply& ply : light.plies) ply.rho = 0.0;
       all_.push_back(std::move(light));
     }
     return copy;
   }
 
  private:
+  bool has_no_mass(const T& value) const {
+    if constexpr (std::is_same_v<T, ShellSection>)
+      for (const Ply& ply : value.plies)
+        if (ply.rho != 0.0) return false;
+    return value.*mass_ == 0.0;
+  }
+
   std::vector<T>& all_;
   double T::*mass_;
   std::vector<int> copy_;
@@ -87,8 +96,11 @@ struct Lumper {
     std::array<Vec3, std::tuple_size_v<decltype(shell.nodes)>> corners;
     for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = at(shell.nodes[i]);
     const auto areas = nodal_areas(corners);
+    double per_area = section.plies.empty() ? rho * section.thickness : 0.0;
+    for (const Ply& ply : section.plies) per_area += ply.rho * ply.thickness;
+    const Vec3 to_middle = shell.offset * (corners[2] - corners[0]).cross(corners.back() - corners[1]).normalized();
     for (std::size_t i = 0; i < corners.size(); ++i)
-      put(shell.nodes[i], (rho * section.thickness + section.nsm) * areas[i], Vec3::Zero(), shell.id);
+      put(shell.nodes[i], (per_area + section.nsm) * areas[i], to_middle, shell.id);
     shell.section = shell_sections.of(shell.section);
     shell.material = materials.of(shell.material);
   }

@@ -10,8 +10,6 @@ namespace {
 /// κ that stands for "rigid in transverse shear" in a shell: a thousandth of the usual shear flexibility is left.
 constexpr double rigid_shear_ratio = 1000.0;
 
-using MaterialIndex = std::unordered_map<long, int>;
-
 // G = E / (2 (1 + ν)) gives the third of E, G, ν; with E or G alone the other two are as in the manuals
 Material elastic(const Card& card) {
   Material m;
@@ -136,6 +134,7 @@ Properties read_properties(Draft& draft) {
   const MaterialIndex materials = read_materials(draft);
   read_bars(draft, materials, properties);
   read_shells(draft, materials, properties);
+  read_composites(draft, materials, properties);
   return properties;
 }
 
