@@ -46,11 +46,12 @@ class Text {
   void add(const Units& u) { (*this)(u.length, u.mass, u.time); }
   void add(const fem::Material& m) { (*this)(m.E, m.G, m.nu, m.rho); }
   void add(const fem::BeamSection& s) { (*this)(s.A, s.Iy, s.Iz, s.Iyz, s.J, s.kappa_y, s.kappa_z, s.nsm); }
-  void add(const fem::ShellSection& s) { (*this)(s.thickness, s.nsm, s.bending_ratio, s.shear_ratio); }
+  void add(const fem::Ply& p) { (*this)(p.thickness, p.angle, p.E1, p.E2, p.nu12, p.G12, p.G13, p.G23, p.rho); }
+  void add(const fem::ShellSection& s) { (*this)(s.thickness, s.nsm, s.bending_ratio, s.shear_ratio, s.plies); }
   void add(const NodeSelector& n) { (*this)(n.kind, n.point, n.centre, n.node, n.name); }
   void add(const ScenePort& p) { (*this)(p.name, p.where, p.average, p.axes); }
   void add(const SceneSection& s) {
-    (*this)(s.set, s.shape.index(), s.material, s.orientation, s.rotary_inertia, s.offset);
+    (*this)(s.set, s.shape.index(), s.material, s.orientation, s.rotary_inertia, s.offset, s.normal_offset);
     std::visit([this](const auto& shape) { (*this)(shape); }, s.shape);
   }
   void add(const SceneSupport& s) { (*this)(s.set, s.directions); }

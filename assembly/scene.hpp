@@ -38,10 +38,11 @@ struct SceneSection {
   std::string set;  ///< of cells; "everywhere": all that no other section names
   std::variant<fem::BeamSection, fem::ShellSection> shape;
   fem::Material material;
-  std::optional<Vec3> orientation;  ///< beams; needed unless the section is round
+  std::optional<Vec3> orientation;  ///< beams: needed unless the section is round; a laminate's direction 1
   bool round = false;
   bool rotary_inertia = true;
   Vec3 offset = Vec3::Zero();  ///< beams [m]
+  double normal_offset = 0.0;  ///< shells: from the nodes to the middle surface, along the normal [m]
   Place place;
 };
 

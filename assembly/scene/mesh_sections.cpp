@@ -6,6 +6,8 @@
 #include <map>
 #include <set>
 
+#include "assembly/scene/split_cells.hpp"
+
 namespace tenon::assembly {
 namespace {
 
@@ -109,15 +111,6 @@ std::string sets_of_cell(const Mesh& mesh, std::size_t block, int cell) {
                      : "Add the set under `sections`, or under `ignore` if it carries no structure");
 }
 
-void check_type(const CellBlock& block, const SceneSection& section, const Mesh& mesh) {
-  const bool linear = block.type == CellType::line || block.type == CellType::triangle || block.type == CellType::quad;
-  if (!linear)
-    throw InputError(section.place,
-                     fmt::format("set '{}' of {} holds {} cells, which have no element here", section.set, mesh.source,
-                                 fem::name(block.type)),
-                     "Mesh it with first-order cells (gmsh -order 1)");
-}
-
 /// Any direction that is not along the beam will do for a round section.
 Vec3 across(const Vec3& along) {
   Eigen::Index least = 0;
@@ -125,15 +118,24 @@ Vec3 across(const Vec3& along) {
   return Vec3::Unit(least);
 }
 
-fem::Element make_element(const CellBlock& block, int cell, const SceneSection& section, int shape, int material,
-                          const fem::Model& model, fem::BeamMass beam_mass) {
-  const int* nodes = &block.nodes[static_cast<std::size_t>(cell * fem::node_count(block.type))];
-  const long id = block.ids[static_cast<std::size_t>(cell)];
-  if (block.type == CellType::triangle)
-    return fem::Tria3{.nodes = {nodes[0], nodes[1], nodes[2]}, .section = shape, .material = material, .id = id};
-  if (block.type == CellType::quad)
-    return fem::Quad4{
-        .nodes = {nodes[0], nodes[1], nodes[2], nodes[3]}, .section = shape, .material = material, .id = id};
+/// `nodes`: of a first-order cell.
+fem::Element make_element(CellType type, const std::array<int, 4>& nodes, long id, const SceneSection& section,
+                          int shape, int material, const fem::Model& model, fem::BeamMass beam_mass) {
+  const Vec3 axis = section.orientation.value_or(Vec3::Zero());
+  if (type == CellType::triangle)
+    return fem::Tria3{.nodes = {nodes[0], nodes[1], nodes[2]},
+                      .section = shape,
+                      .material = material,
+                      .id = id,
+                      .offset = section.normal_offset,
+                      .material_axis = axis};
+  if (type == CellType::quad)
+    return fem::Quad4{.nodes = {nodes[0], nodes[1], nodes[2], nodes[3]},
+                      .section = shape,
+                      .material = material,
+                      .id = id,
+                      .offset = section.normal_offset,
+                      .material_axis = axis};
   const Vec3 along = model.nodes[static_cast<std::size_t>(nodes[1])] - model.nodes[static_cast<std::size_t>(nodes[0])];
   return fem::Beam{.nodes = {nodes[0], nodes[1]},
                    .section = shape,
@@ -143,6 +145,41 @@ fem::Element make_element(const CellBlock& block, int cell, const SceneSection& 
                    .mass = beam_mass,
                    .rotary_inertia = section.rotary_inertia,
                    .id = id};
+}
+
+/// The node in the middle of a quad8, made anew.
+int make_centre(const int* nodes, fem::Model& model) {
+  Vec3 centre = Vec3::Zero();
+  for (int i = 0; i < 8; ++i) centre += (i < 4 ? -0.25 : 0.5) * model.nodes[static_cast<std::size_t>(nodes[i])];
+  const long last = model.node_ids.empty() ? 0 : std::min(model.node_ids.back(), 0L);  // made ones are −1, −2, …
+  model.nodes.push_back(centre);
+  model.node_ids.push_back(last - 1);
+  return static_cast<int>(model.nodes.size()) - 1;
+}
+
+/// Appends the elements of a cell, several for one of second order.
+void add_elements(const CellBlock& block, int cell, const SceneSection& section, int shape, int material,
+                  fem::BeamMass beam_mass, fem::Model& model) {
+  const int* nodes = &block.nodes[static_cast<std::size_t>(cell * fem::node_count(block.type))];
+  const int centre = block.type == CellType::quad8 ? make_centre(nodes, model) : -1;
+  for (const Piece& piece : pieces_of(block.type)) {
+    std::array<int, 4> corners{};
+    for (std::size_t i = 0; i < static_cast<std::size_t>(fem::node_count(piece.type)); ++i)
+      corners[i] = centre >= 0 && piece.at[i] == quad8_centre ? centre : nodes[piece.at[i]];
+    model.elements.push_back(make_element(piece.type, corners, block.ids[static_cast<std::size_t>(cell)], section,
+                                          shape, material, model, beam_mass));
+  }
+}
+
+/// Second-order cells stand in the losses.
+void note_split(const CellBlock& block, long count, fem::Model& model) {
+  const std::size_t pieces = pieces_of(block.type).size();
+  if (count == 0 || pieces < 2) return;
+  model.losses.push_back(
+      {.name = fmt::format("{} cells", fem::name(block.type)),
+       .count = count,
+       .note = fmt::format("each is split into {} first-order {}{}", pieces, fem::name(pieces_of(block.type)[0].type),
+                           block.type == CellType::quad8 ? "s, with a node made in its middle" : "s")});
 }
 
 Cover cover_cells(const Mesh& mesh, const SceneBody& body, const FeSource& fe) {
@@ -189,14 +226,16 @@ fem::Model elements_of(const Mesh& mesh, const SceneBody& body, const FeSource& 
     }
   }
   const fem::BeamMass beam_mass = fe.beam_mass.value_or(fem::BeamMass::high_order);
-  for (std::size_t b = 0; b < mesh.cells.size(); ++b)
+  for (std::size_t b = 0; b < mesh.cells.size(); ++b) {
+    long count = 0;
     for (std::size_t k = 0; k < cover[b].size(); ++k) {
       if (cover[b][k] < 0) continue;
       const auto s = static_cast<std::size_t>(cover[b][k]);
-      check_type(mesh.cells[b], fe.sections[s], mesh);
-      model.elements.push_back(make_element(mesh.cells[b], static_cast<int>(k), fe.sections[s], shape[s],
-                                            static_cast<int>(s), model, beam_mass));
+      add_elements(mesh.cells[b], static_cast<int>(k), fe.sections[s], shape[s], static_cast<int>(s), beam_mass, model);
+      ++count;
     }
+    note_split(mesh.cells[b], count, model);
+  }
   return model;
 }
 

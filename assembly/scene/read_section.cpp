@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "assembly/scene/quantity.hpp"
 #include "assembly/scene/read.hpp"
 #include "fem/section_shapes.hpp"
@@ -57,6 +59,65 @@ fem::BeamSection read_beam_shape(const std::string& key, const Value& value, dou
   }
 }
 
+/// Plies of `laminate`; angles from direction 1 of the section.
+std::vector<fem::Ply> read_plies(const Value& map, const Materials& materials, const Units& units) {
+  std::optional<fem::Ply> common;
+  if (const Value* of = map.find("ply")) {
+    const auto modulus = [&](const char* key) { return positive(*of->find(key), dimension::pressure, units); };
+    common.emplace();
+    common->E1 = modulus("E1");
+    common->E2 = modulus("E2");
+    common->nu12 = number(*of->find("nu12"));
+    common->G12 = modulus("G12");
+    common->G13 = of->find("G13") ? modulus("G13") : common->G12;
+    common->G23 = of->find("G23") ? modulus("G23") : common->G13;
+    common->rho = positive(*of->find("rho"), dimension::density, units, true);
+    if (!(common->nu12 * common->nu12 * common->E2 < common->E1))
+      throw InputError(of->find("nu12")->place, fmt::format("nu12 is {}, expected nu12² < E1/E2", common->nu12),
+                       "Is it nu21? nu12 = nu21 E1/E2");
+  }
+  std::vector<fem::Ply> plies;
+  for (const Value& item : map.find("plies")->items) {
+    if (item.kind != Value::Kind::list || item.items.size() < 2 || item.items.size() > 3)
+      throw InputError(item.place, "found no ply, expected [thickness, angle] or [thickness, angle, material]",
+                       "Write for example [0.125, 45 deg]");
+    fem::Ply ply;
+    if (item.items.size() == 3) {
+      const fem::Material m = materials.read(item.items[2]);
+      ply = {.E1 = m.E, .E2 = m.E, .nu12 = m.nu, .G12 = m.G, .G13 = m.G, .G23 = m.G, .rho = m.rho};
+    } else if (common) {
+      ply = *common;
+    } else {
+      throw InputError(item.place, "the ply has no material", "Add `ply: {E1, E2, nu12, G12, rho}` or name a material");
+    }
+    ply.thickness = positive(item.items[0], dimension::length, units);
+    ply.angle = angle(item.items[1]);
+    plies.push_back(ply);
+  }
+  if (plies.empty()) throw InputError(map.place, "the laminate has no plies", "List them under `plies`");
+  if (const Value* symmetric = map.find("symmetric"); symmetric && truth(*symmetric))
+    for (std::size_t k = plies.size(); k-- > 0;) plies.push_back(fem::Ply(plies[k]));
+  return plies;
+}
+
+/// `shell` or `laminate`.
+void read_shell(const std::string& key, const Value& map, const Materials& materials, const Units& units,
+                SceneSection& section) {
+  fem::ShellSection shell{.name = section.set};
+  if (key == "shell") {
+    refuse(map, {"shear", "orientation"}, "a shell");
+    shell.thickness = positive(*map.find(key), dimension::length, units);
+  } else {
+    refuse(map, {"shear", "material"}, "a laminate");
+    shell.plies = read_plies(*map.find(key), materials, units);
+    for (const fem::Ply& ply : shell.plies) shell.thickness += ply.thickness;
+    if (const Value* orientation = map.find("orientation")) section.orientation = axis(*orientation);
+  }
+  if (const Value* nsm = map.find("nsm")) shell.nsm = positive(*nsm, dimension::mass_per_area, units, true);
+  if (const Value* offset = map.find("offset")) section.normal_offset = quantity(*offset, dimension::length, units);
+  section.shape = shell;
+}
+
 }  // namespace
 
 Materials::Materials(const Value* table, const Units& units) : units_(units) {
@@ -84,20 +145,19 @@ SceneSection read_section(const Member& entry, const Value* body_material, const
   const Value& map = entry.value;
   const std::string what = fmt::format("section '{}'", entry.key);
   const Value* material = map.find("material") ? map.find("material") : body_material;
-  if (!material)
+  const std::string key = one_of(map, {"shell", "laminate", "tube", "circle", "rectangle", "box", "general"}, what);
+  if (!material && key != "laminate")
     throw InputError(entry.place, fmt::format("{} has no material", what),
                      "Add `material: {E, nu, rho}` or a name (aluminium, steel, titanium) to the section or its body");
 
-  SceneSection section{
-      .set = entry.key, .shape = {}, .material = materials.read(*material), .orientation = {}, .place = entry.place};
-  const std::string key = one_of(map, {"shell", "tube", "circle", "rectangle", "box", "general"}, what);
+  SceneSection section{.set = entry.key,
+                       .shape = {},
+                       .material = key == "laminate" ? fem::Material{.name = entry.key} : materials.read(*material),
+                       .orientation = {},
+                       .place = entry.place};
   const Value* nsm = map.find("nsm");
-  if (key == "shell") {
-    refuse(map, {"shear", "orientation", "offset"}, "a shell");
-    fem::ShellSection shell{.name = entry.key};
-    shell.thickness = positive(*map.find(key), dimension::length, units);
-    if (nsm) shell.nsm = positive(*nsm, dimension::mass_per_area, units, true);
-    section.shape = shell;
+  if (key == "shell" || key == "laminate") {
+    read_shell(key, map, materials, units, section);
     return section;
   }
 
@@ -130,7 +190,7 @@ BeamSource read_beam(const Value& map, const Materials& materials, const Units& 
     throw InputError(map.find("to")->place, "the beam has no length: `from` and `to` are one point",
                      "Move one of them");
   const Value& section = *map.find("section");
-  refuse(section, {"shell", "offset"}, "a beam");
+  refuse(section, {"shell", "laminate", "offset"}, "a beam");
   beam.section = read_section({"section", section.place, section}, map.find("material"), materials, units);
   const Vec3 axis = (beam.to - beam.from).normalized();
   if (!beam.section.orientation) beam.section.orientation = axis.unitOrthogonal();

@@ -26,17 +26,33 @@ const Schema general_section{"a general beam section",
                               {"kappa_y", scalar, "shear coefficient for forces along y"},
                               {"kappa_z", scalar, "shear coefficient for forces along z"}}};
 
+const Schema ply{"a ply",
+                 {{"E1", scalar, "Young's modulus along the fibres", true},
+                  {"E2", scalar, "across them", true},
+                  {"nu12", scalar, "Poisson's ratio of a pull along the fibres", true},
+                  {"G12", scalar, "shear modulus in the plane", true},
+                  {"G13", scalar, "transverse, along the fibres; G12 when absent"},
+                  {"G23", scalar, "transverse, across them; G13 when absent"},
+                  {"rho", scalar, "density", true}}};
+
+const Schema laminate{"a laminate",
+                      {{"plies", list, "[thickness, angle] each, from -z to z; a third word names a material", true},
+                       {"ply", map, "what plies without a named material are of", false, &ply},
+                       {"symmetric", scalar, "true: `plies` lists the lower half"}}};
+
 const Schema section{
     "a section",
     {{"shell", scalar, "thickness"},
+     {"laminate", map, "a shell in layers", false, &laminate},
      {"tube", list, "[outer, inner] radii"},
      {"circle", scalar, "radius"},
      {"rectangle", list, "[b along y, h along z]"},
      {"box", list, "[b along y, h along z, wall thickness], outer sizes"},
      {"general", map, "section constants", false, &general_section},
      {"shear", scalar, "timoshenko (default), rayleigh (rotary inertia, no shear) or euler-bernoulli (neither)"},
-     {"orientation", list, "a vector that spans, with the beam's axis, its x-y plane"},
-     {"offset", list, "from the nodes to the beam's axis"},
+     {"orientation", list,
+      "a vector that spans, with the beam's axis, its x-y plane; of a laminate: its projection is direction 1"},
+     {"offset", scalar | list, "from the nodes to the beam's axis; of a shell: to its middle, along the normal"},
      {"material", scalar | map, "in place of the body's", false, &material},
      {"nsm", scalar, "non-structural mass per length (beams) or area (shells)"}}};
 

@@ -129,6 +129,113 @@ TEST_F(BuildModel, TakesEverywhereForWhatNoOtherSectionNames) {
   EXPECT_EQ(model.elements.size(), 5u);
 }
 
+TEST_F(BuildModel, ReadsLaminatesAndOffsetsOfShells) {
+  const std::string skin = "skin: {shell: 20}";
+  const std::string carbon = "ply: {E1: 135e3, E2: 10e3, nu12: 0.3, G12: 5e3, G23: 3.5e3, rho: 1.6e-9}";
+  const fem::Model model =
+      build(with(skin, "skin: {laminate: {plies: [[0.25, 45 deg], [0.5, 0], [4, 0, steel]], " + carbon +
+                           ", symmetric: true}, orientation: [0, 2, 0], offset: 5, nsm: 1e-9}"));
+  const fem::ShellSection& s = model.shell_sections.at(0);
+  ASSERT_EQ(s.plies.size(), 6u);
+  EXPECT_NEAR(s.thickness, 9.5e-3, 1e-16);
+  EXPECT_NEAR(s.nsm, 1.0, 1e-12);
+  EXPECT_NEAR(s.plies[0].angle, std::numbers::pi / 4, 1e-15);
+  EXPECT_NEAR(s.plies[5].angle, std::numbers::pi / 4, 1e-15);
+  EXPECT_NEAR(s.plies[1].E1, 135e9, 1.0);
+  EXPECT_NEAR(s.plies[1].G13, 5e9, 1.0);  // G12 when absent
+  EXPECT_NEAR(s.plies[1].rho, 1600.0, 1e-9);
+  EXPECT_NEAR(s.plies[2].E2, 200e9, 1.0);
+  const auto& quad = std::get<fem::Quad4>(model.elements[1]);
+  EXPECT_NEAR(quad.offset, 5e-3, 1e-17);
+  EXPECT_EQ(quad.material_axis, Vec3::UnitY());
+
+  const auto laminate = [&](const std::string& text) { return fault(skin, "skin: {laminate: {" + text + "}}"); };
+  EXPECT_THAT(laminate("plies: [[1, 0]]"), HasSubstr("the ply has no material"));
+  EXPECT_THAT(laminate("plies: [1, 0], " + carbon), HasSubstr("expected [thickness, angle]"));
+  EXPECT_THAT(laminate("plies: [], " + carbon), HasSubstr("no plies"));
+  EXPECT_THAT(laminate("plies: [[1, 0, stel]]"), HasSubstr("'steel'?"));
+  EXPECT_THAT(laminate("plies: [[1, 0]], ply: {E1: 1, E2: 100, nu12: 0.3, G12: 1, rho: 1}"), HasSubstr("nu21"));
+  EXPECT_THAT(fault(skin, "skin: {shell: 20, orientation: [1, 0, 0]}"), HasSubstr("orientation"));
+}
+
+// Gmsh types 8 line3, 9 triangle6, 10 quad9, 16 quad8: areas 4, 4 and 2, pieces with the sense of
+// their cells; the node in the middle of the quad8 is made.
+TEST_F(BuildModel, SplitsSecondOrderCellsAndSaysSo) {
+  folder_.write("panel.msh", R"($MeshFormat
+2.2 0 8
+$EndMeshFormat
+$PhysicalNames
+2
+1 1 "rim"
+2 2 "skin"
+$EndPhysicalNames
+$Nodes
+17
+1 0 0 0
+2 2 0 0
+3 2 2 0
+4 0 2 0
+5 1 0 0
+6 2 1 0
+7 1 2 0
+8 0 1 0
+9 1 1 0
+10 4 0 0
+11 4 2 0
+12 3 0 0
+13 4 1 0
+14 3 2 0
+15 6 0 0
+16 5 0 0
+17 5 1 0
+$EndNodes
+$Elements
+4
+1 8 2 1 1 1 2 5
+2 10 2 2 1 1 2 3 4 5 6 7 8 9
+3 16 2 2 1 2 10 11 3 12 13 14 6
+4 9 2 2 1 10 15 11 16 17 13
+$EndElements
+)");
+  const fem::Model model = build(R"(units: SI
+bodies:
+  panel:
+    fe: panel.msh
+    material: {E: 1, nu: 0.3, rho: 8}
+    sections: {skin: {shell: 0.5}, rim: {circle: 0.1}}
+    ports: {corner: {at: [0, 0, 0]}}
+)");
+  std::vector<std::string> losses;
+  for (const fem::Loss& loss : model.losses)
+    losses.push_back(std::to_string(loss.count) + " " + loss.name + ": " + loss.note);
+  EXPECT_THAT(losses, testing::IsSupersetOf(
+                          {HasSubstr("1 line3 cells: each is split into 2"),
+                           HasSubstr("1 triangle6 cells: each is split into 4 first-order triangle"),
+                           HasSubstr("1 quad9 cells: each is split into 4"),
+                           HasSubstr("1 quad8 cells: each is split into 4 first-order quads, with a node made")}));
+  ASSERT_EQ(model.elements.size(), 14u);
+  EXPECT_EQ(model.nodes.size(), 18u);
+  EXPECT_EQ(model.node_ids.back(), -1);
+  EXPECT_NEAR((model.nodes.back() - Vec3(3.0, 1.0, 0.0)).norm(), 0.0, 1e-15);
+  double area = 0.0, length = 0.0;
+  const auto at = [&](int node) -> const Vec3& { return model.nodes[static_cast<std::size_t>(node)]; };
+  for (const fem::Element& element : model.elements) {
+    if (const auto* q = std::get_if<fem::Quad4>(&element)) {
+      const double piece = 0.5 * (at(q->nodes[2]) - at(q->nodes[0])).cross(at(q->nodes[3]) - at(q->nodes[1])).z();
+      EXPECT_NEAR(piece, 1.0, 1e-14);
+      area += piece;
+    } else if (const auto* t = std::get_if<fem::Tria3>(&element)) {
+      const double piece = 0.5 * (at(t->nodes[1]) - at(t->nodes[0])).cross(at(t->nodes[2]) - at(t->nodes[0])).z();
+      EXPECT_NEAR(piece, 0.5, 1e-14);
+      area += piece;
+    } else if (const auto* b = std::get_if<fem::Beam>(&element)) {
+      length += (at(b->nodes[1]) - at(b->nodes[0])).norm();
+    }
+  }
+  EXPECT_NEAR(area, 10.0, 1e-13);
+  EXPECT_NEAR(length, 2.0, 1e-14);
+}
+
 TEST_F(BuildModel, RefusesWhatDoesNotFitTheMesh) {
   EXPECT_THAT(fault("yoke: {circle: 50}", "yok: {circle: 50}"),
               testing::AllOf(HasSubstr("scene.yaml:6:"), HasSubstr("no set of cells 'yok'"), HasSubstr("'yoke'?")));
