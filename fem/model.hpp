@@ -55,6 +55,10 @@ struct ShellSection {
   std::vector<Ply> plies = {};     ///< from −z to z; when given, material and both ratios have no part
 };
 
+/// A set of directions as bits 0..5 (bit 0 = ux). all_six = 0b111111.
+using Directions = std::uint8_t;
+inline constexpr Directions all_six = 0b111111;
+
 /// Which mass matrix a beam gets.
 ///  high_order: consistent plus c K_e, c the leading error of 1/λ: O(h²) more accurate, rigid masses unchanged.
 ///  consistent: the kinetic energy of the exact static shapes.
@@ -69,7 +73,8 @@ struct Beam {
   Vec3 orientation = Vec3::UnitZ();  ///< with the axis spans the element's x–y plane (Nastran's v)
   std::array<Vec3, 2> offsets{Vec3::Zero(), Vec3::Zero()};  ///< from node to beam end, basic frame [m]
   BeamMass mass = BeamMass::high_order;
-  bool rotary_inertia = true;  ///< of the section in bending; ignored by `nastran`
+  bool rotary_inertia = true;            ///< of the section in bending; ignored by `nastran`
+  std::array<Directions, 2> releases{};  ///< force-free directions of each beam end, element axes (Nastran's pin flags)
   long id = 0;
 };
 
@@ -115,10 +120,6 @@ struct Dof {
   int node = 0;
   int direction = 0;
 };
-
-/// A set of directions as bits 0..5 (bit 0 = ux). all_six = 0b111111.
-using Directions = std::uint8_t;
-inline constexpr Directions all_six = 0b111111;
 
 /// RBE2: the listed directions of every dependent node follow the independent node as a rigid body.
 struct RigidLink {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "fem/elements/basic_frame.hpp"
+#include "fem/elements/beam_releases.hpp"
 #include "fem/error.hpp"
 
 // The beam in its own axes: x from end 1 to end 2 (length h), y and z of the section. Both bending planes at once:
@@ -36,12 +37,12 @@
 //
 // Geometric stiffness. With ∫ H'L' = ∫ L'L' = G the axial force N does the second-order work of
 //   K_σ = N/h [(hh − G) ⊗ Q'Q + G ⊗ 1]                                                                             (6)
+// Released ends follow the others statically, u = T q (beam_releases.hpp): T'K T, T'M T and T'K_σ T.
 namespace tenon::fem {
 namespace {
 
 using Mat2 = Eigen::Matrix2d;
 using Table = Eigen::Matrix4d;  // over (v₁, h s₁, v₂, h s₂)
-using Mat12 = Eigen::Matrix<double, 12, 12>;
 
 Table table(double scale, std::array<double, 16> rows) {
   return scale * Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(rows.data());
@@ -154,6 +155,21 @@ ShearBlend shear_blend(const BeamSection& section, const Material& material, dou
   return {I, B, P, Q, P * Q};
 }
 
+/// Stiffness in the element's axes, both ends joined.
+Mat12 joined_stiffness(const BeamSection& section, const Material& material, const ShearBlend& blend, double h) {
+  Mat12 K = Mat12::Zero();
+  const double EA_h = material.E * section.A / h, GJ_h = material.G * section.J / h;
+  add_bar(K, 0, EA_h, -EA_h);
+  add_bar(K, 3, GJ_h, -GJ_h);
+  Transverse k;
+  k.add(k_H, symmetric(blend.B * blend.Q) / (h * h * h));  // (3)
+  k.add(k_L, symmetric(blend.B * blend.PQ) / (h * h * h));
+  k.place(K, h);
+  return K;
+}
+
+bool released(const Beam& beam) { return (beam.releases[0] | beam.releases[1]) != 0; }
+
 }  // namespace
 
 void beam_matrices(const Beam& beam, const BeamSection& section, const Material& material, std::span<const Vec3> nodes,
@@ -164,18 +180,12 @@ void beam_matrices(const Beam& beam, const BeamSection& section, const Material&
   double h = 0.0;
   const Mat3 R = beam_axes(beam, end_1, end_2, h);
 
-  const double E = material.E, rho = material.rho;
-  const auto [I, B, P, Q, PQ] = shear_blend(section, material, h);
+  const double rho = material.rho;
+  const ShearBlend blend = shear_blend(section, material, h);
+  const auto& [I, B, P, Q, PQ] = blend;
 
-  Mat12 K = Mat12::Zero(), M = Mat12::Zero();
-  const double EA_h = E * section.A / h, GJ_h = material.G * section.J / h;
-  add_bar(K, 0, EA_h, -EA_h);
-  add_bar(K, 3, GJ_h, -GJ_h);
-  Transverse k, m;
-  k.add(k_H, symmetric(B * Q) / (h * h * h));  // (3)
-  k.add(k_L, symmetric(B * PQ) / (h * h * h));
-  k.place(K, h);
-
+  Mat12 K = joined_stiffness(section, material, blend, h), M = Mat12::Zero();
+  Transverse m;
   const double mass = (rho * section.A + section.nsm) * h;       // [kg]
   const double torsional = rho * (section.Iy + section.Iz) * h;  // [kg m²]
   if (beam.mass == BeamMass::nastran) {
@@ -201,6 +211,11 @@ void beam_matrices(const Beam& beam, const BeamSection& section, const Material&
     }
   }
   m.place(M, h);
+  if (released(beam)) {
+    const Release release = release_ends(beam, K);
+    K = release.K;
+    M = congruent(M, release.T);
+  }
 
   const std::array<Vec3, 2> arms{R.transpose() * beam.offsets[0], R.transpose() * beam.offsets[1]};
   to_basic_frame<2>(K, R, arms, out.K);
@@ -214,11 +229,19 @@ void beam_geometric_stiffness(const Beam& beam, const BeamSection& section, cons
   double h = 0.0;
   const Mat3 R = beam_axes(beam, nodes[static_cast<std::size_t>(beam.nodes[0])] + beam.offsets[0],
                            nodes[static_cast<std::size_t>(beam.nodes[1])] + beam.offsets[1], h);
-  const Vec3 end_1 = u.segment<3>(0) + Vec3(u.segment<3>(3)).cross(beam.offsets[0]);
-  const Vec3 end_2 = u.segment<3>(6) + Vec3(u.segment<3>(9)).cross(beam.offsets[1]);
-  const double N = material.E * section.A / h * R.col(0).dot(end_2 - end_1);
+  const ShearBlend blend = shear_blend(section, material, h);
+  const Mat2& Q = blend.Q;
+  Eigen::Matrix<double, 12, 1> ends;  // displacements of the nodes' rigid arms where the beam hangs, element axes
+  ends << R.transpose() * (u.segment<3>(0) + Vec3(u.segment<3>(3)).cross(beam.offsets[0])),
+      R.transpose() * u.segment<3>(3), R.transpose() * (u.segment<3>(6) + Vec3(u.segment<3>(9)).cross(beam.offsets[1])),
+      R.transpose() * u.segment<3>(9);
+  Mat12 T;
+  if (released(beam)) {
+    T = release_ends(beam, joined_stiffness(section, material, blend, h)).T;
+    ends = (T * ends).eval();
+  }
+  const double N = material.E * section.A / h * (ends[6] - ends[0]);
 
-  const Mat2 Q = shear_blend(section, material, h).Q;
   Mat12 K = Mat12::Zero();
   const double wagner = N / h * (section.Iy + section.Iz) / section.A;
   add_bar(K, 3, wagner, -wagner);
@@ -226,6 +249,7 @@ void beam_geometric_stiffness(const Beam& beam, const BeamSection& section, cons
   k.add(hh - LsLs, N / h * Q.transpose() * Q);  // (6)
   k.add(LsLs, N / h * Mat2::Identity());
   k.place(K, h);
+  if (released(beam)) K = congruent(K, T);
   const std::array<Vec3, 2> arms{R.transpose() * beam.offsets[0], R.transpose() * beam.offsets[1]};
   to_basic_frame<2>(K, R, arms, out);
 }

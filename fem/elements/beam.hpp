@@ -8,11 +8,11 @@
 namespace tenon::fem {
 
 /// Stiffness and mass of a two-node Timoshenko beam, 12×12: exact for loads at its ends, any section (I_yz ≠ 0),
-/// rigid end offsets; mass by `beam.mass` (see BeamMass). κ = 0 is rigid in shear (Euler-Bernoulli).
+/// rigid end offsets, released ends; mass by `beam.mass` (see BeamMass). κ = 0 is rigid in shear (Euler-Bernoulli).
 /// I_yz = ∫ y z dA in the section's axes: x along the beam, y in the plane of the orientation vector.
 /// @param nodes  positions of all nodes of the model [m]
 /// @throws ModelError naming the element: zero length, orientation along the axis, E, A ≤ 0, a negative or
-///         impossible second moment, no shear modulus where one is needed, negative mass.
+///         impossible second moment, no shear modulus where one is needed, negative mass, a mechanism by releases.
 /// Source: Przemieniecki, Theory of Matrix Structural Analysis, 1968, §5.6, §11.4 (one plane); here both planes at
 /// once.
 void beam_matrices(const Beam& beam, const BeamSection& section, const Material& material, std::span<const Vec3> nodes,

@@ -45,6 +45,9 @@ struct NastranDeck {
 /// lumps: elements then refer to copies of their material and section without mass, and PointMass elements carry it at
 /// the nodes (a bar half and half at its two ends, a shell ∫N_i ρt dA), one a node but for the ends of bars with offsets.
 ///
+/// Pin flags of CBAR become Beam::releases, in the element's axes. With COUPMASS they are refused: what mass Nastran
+/// gives such a bar is not settled.
+///
 /// Sections. I1 bends in plane 1 (x–y) and becomes Iz, I2 becomes Iy; a blank K1 or K2 means rigid in shear (kappa 0).
 /// PSHELL: blank MID2 gives bending_ratio 0; blank MID3 means rigid in shear, taken as shear_ratio 1000; MID2 and MID3
 /// that differ from MID1 scale the two ratios.

@@ -97,10 +97,14 @@ void ElementReader::bar(const Card& card) {
   beam.orientation = orientation(card, beam.nodes[0]);
   const std::string codes = offset_codes(card);
   beam.offsets = {offset(card, 11, "WA", codes[1], beam.nodes[0]), offset(card, 14, "WB", codes[2], beam.nodes[1])};
-  for (const int pin : {9, 10})
-    if (card.components(pin, pin == 9 ? "PA" : "PB") != 0)
-      draft.losses.add_physical("CBAR pin flags", "they would release ends of the bar, which is read as rigidly joined",
+  for (const int pin : {9, 10}) {
+    const unsigned flags = card.components(pin, pin == 9 ? "PA" : "PB");
+    if (flags != 0 && draft.deck.coupled_mass)
+      draft.losses.add_physical("CBAR pin flags",
+                                "with COUPMASS: how it shares the mass of a bar with released ends is not known here",
                                 card.place(pin));
+    beam.releases[static_cast<std::size_t>(pin - 9)] = static_cast<Directions>(flags);
+  }
 
   const Vec3 a = at(beam.nodes[0]) + beam.offsets[0], b = at(beam.nodes[1]) + beam.offsets[1], axis = b - a;
   if (!(axis.norm() > 1e-12 * (a.norm() + b.norm())))

@@ -33,6 +33,12 @@ double total_mass(const Model& model) {
 
 }  // namespace
 
+TEST(NastranElements, PinFlagsReleaseTheEndsOfABar) {
+  EXPECT_THAT(only_bar("CBAR,5,10,1,2,3\n").releases, ElementsAre(0, 0));
+  EXPECT_THAT(only_bar("CBAR,5,10,1,2,3\n,456,5\n").releases, ElementsAre(0b111000, 0b010000));
+  EXPECT_THAT(only_bar("CBAR,5,10,1,2,3\n,,61\n").releases, ElementsAre(0, 0b100001));
+}
+
 TEST(NastranElements, MaterialFromAnyTwoConstants) {
   const auto model =
       read_deck("GRID,1\nMAT1,1,2.+11,,.25,7800.\nMAT1,2,2.+11,8.+10\nMAT1,3,,8.+10,.25\nMAT1,4,2.+11\nMAT1,5,,8.+10\n")
@@ -249,7 +255,7 @@ TEST(NastranElements, BadElementsAreRefusedByNameAndPlace) {
   EXPECT_THAT(bar("CBAR,5,10,1,2,1.,0.,0.\n"), HasSubstr("along its own axis"));
   EXPECT_THAT(bar("CBAR,5,10,1,2,0.,0.,0.\n"), HasSubstr("along its own axis"));
   EXPECT_THAT(bar("GRID,4,,2.\nCBAR,5,10,2,4,3\n"), HasSubstr("has no length"));
-  EXPECT_THAT(bar("CBAR,5,10,1,2,3\n,456\n"),
+  EXPECT_THAT(bar("CBAR,5,10,1,2,3\n,456\nPARAM,COUPMASS,1\n"),
               HasSubstr("deck.bdf:7:2: reading on would change stiffness or mass: CBAR pin flags"));
   EXPECT_THAT(bar("CBAR,5,10,1,2,3,,,GOO\n,,,1.\n"), HasSubstr("offsets in the element's own frame"));
   EXPECT_THAT(bar("CBAR,5,10,1,2,3,,,XYZ\n"), HasSubstr("OFFT"));
