@@ -6,6 +6,7 @@
 #include "assembly/build.hpp"
 #include "assembly/build_beam.hpp"
 #include "assembly/close_angles.hpp"
+#include "assembly/matrix_body.hpp"
 #include "assembly/same_body.hpp"
 #include "reduction/body_file.hpp"
 #include "reduction/large_motion.hpp"
@@ -51,13 +52,11 @@ ReducedBody reduce_fe(const SceneBody& body, const FeSource& fe, const BodyPlan&
     if (options.nonlinear) reduction::add_large_motion(model, structure, reduced);
   }
   reduced.name = body.name;
-  reduced.certificate.source = fe.file.filename().string();
-  reduced.certificate.source_hash = reduction::file_hash(fe.file);
-  if (fe.matrices)
-    for (const auto& file : {fe.matrices->M, fe.matrices->labels}) {
-      reduced.certificate.source += fmt::format(", {}", file.filename().string());
-      reduced.certificate.source_hash += fmt::format(", {}", reduction::file_hash(file));
-    }
+  for (const auto& file : fe.matrices ? files_read(*fe.matrices) : std::vector{fe.file}) {
+    const char* const comma = reduced.certificate.source.empty() ? "" : ", ";
+    reduced.certificate.source += fmt::format("{}{}", comma, file.filename().string());
+    reduced.certificate.source_hash += fmt::format("{}{}", comma, reduction::file_hash(file));
+  }
   reduced.certificate.nodes = static_cast<int>(model.nodes.size());
   reduced.certificate.elements = static_cast<int>(model.elements.size());
   reduced.certificate.dofs = structure.n();

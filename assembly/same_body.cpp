@@ -56,7 +56,7 @@ class Text {
   }
   void add(const SceneSupport& s) { (*this)(s.set, s.directions); }
   void add(const SceneNodeMass& m) { (*this)(m.where, m.mass, m.inertia, m.offset); }
-  void add(const MatrixFiles& m) { (*this)(m.K, m.M, m.labels); }
+  void add(const MatrixFiles& m) { (*this)(m.program, m.K, m.M, m.labels, m.job, m.deck); }
   void add(const FeSource& fe) {
     (*this)(fe.file, fe.matrices, fe.units, fe.sections, fe.supports, fe.masses, fe.beam_mass, fe.ignore, fe.allow);
   }

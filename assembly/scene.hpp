@@ -66,9 +66,13 @@ struct RigidSource {
   Mat3 inertia = Mat3::Zero();  ///< about the centre
 };
 
-/// K and M of another program in Matrix Market files, and the labels of their rows.
+/// K and M of another program.
 struct MatrixFiles {
-  std::filesystem::path K, M, labels;
+  enum class Program { matrix_market, nastran, calculix, abaqus };
+  Program program = Program::matrix_market;
+  std::filesystem::path K, M, labels;  ///< Matrix Market, and the labels of its rows
+  std::filesystem::path job;           ///< Nastran: the .asm or .pch; of others the files' common name
+  std::filesystem::path deck;          ///< tells where nodes are, and node sets; empty: none
 };
 
 struct FeSource {

@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <map>
 
 #include "assembly/scene/quantity.hpp"
 #include "assembly/scene/read.hpp"
@@ -118,6 +119,36 @@ SceneReduction read_reduction(const Value& value) {
   return reduction;
 }
 
+MatrixFiles read_matrix_files(const Value& map, const std::filesystem::path& folder) {
+  using Program = MatrixFiles::Program;
+  static const std::map<std::string, Program> programs{{"K", Program::matrix_market},
+                                                       {"nastran", Program::nastran},
+                                                       {"calculix", Program::calculix},
+                                                       {"abaqus", Program::abaqus}};
+  const auto file = [&](const char* key) {
+    const Value* const value = map.find(key);
+    if (!value)
+      throw InputError(map.place, fmt::format("matrices without '{}'", key), "Name K, M and labels together");
+    return folder / value->text;
+  };
+  const std::string way = one_of(map, {"K", "nastran", "calculix", "abaqus"}, "`matrices`");
+  MatrixFiles files{.program = programs.at(way), .K = {}, .M = {}, .labels = {}, .job = {}, .deck = {}};
+  if (files.program == Program::matrix_market) {
+    refuse(map, {"deck"}, "labels, which tell where nodes are");
+    files.K = file("K");
+    files.M = file("M");
+    files.labels = file("labels");
+    return files;
+  }
+  refuse(map, {"M", "labels"}, "the files of another program, which hold them");
+  files.job = folder / map.find(way)->text;
+  if (const Value* const deck = map.find("deck")) {
+    if (files.program == Program::nastran) refuse(map, {"deck"}, "a superelement, which tells where its grids are");
+    files.deck = folder / deck->text;
+  }
+  return files;
+}
+
 FeSource read_fe(const Member& entry, const std::filesystem::path& folder, const Materials& materials,
                  const Units& units) {
   const Value& body = entry.value;
@@ -126,9 +157,8 @@ FeSource read_fe(const Member& entry, const std::filesystem::path& folder, const
   const Value* sections = body.find("sections");
   if (const Value* matrices = body.find("matrices")) {
     refuse(body, {"sections", "material", "ignore", "beam_mass"}, "matrices, which hold all stiffness and mass");
-    const auto file = [&](const char* key) { return folder / matrices->find(key)->text; };
-    fe.matrices = MatrixFiles{file("K"), file("M"), file("labels")};
-    fe.file = fe.matrices->K;
+    fe.matrices = read_matrix_files(*matrices, folder);
+    fe.file = fe.matrices->program == MatrixFiles::Program::matrix_market ? fe.matrices->K : fe.matrices->job;
   } else {
     fe.file = folder / body.find("fe")->text;
   }

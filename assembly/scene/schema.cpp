@@ -102,9 +102,13 @@ const Schema reduction{"a reduction",
                         {"band", scalar, "every mode below this frequency, e.g. 50 Hz"}}};
 
 const Schema matrices{"matrices",
-                      {{"K", scalar, "stiffness, a Matrix Market file (.mtx) relative to the scene", true},
-                       {"M", scalar, "mass, likewise", true},
-                       {"labels", scalar, "a text file: `NODE DIRECTION [X Y Z]` for each row, sets", true}}};
+                      {{"K", scalar, "stiffness, a Matrix Market file (.mtx) relative to the scene"},
+                       {"M", scalar, "mass, likewise"},
+                       {"labels", scalar, "a text file: `NODE DIRECTION [X Y Z]` for each row, sets"},
+                       {"nastran", scalar, "a superelement's .asm or .pch, its .op4 beside it"},
+                       {"calculix", scalar, "the common name of .sti, .mas and .dof"},
+                       {"abaqus", scalar, "the common name of _STIFn.mtx and _MASSn.mtx"},
+                       {"deck", scalar, "of `calculix` and `abaqus`: the .inp that tells where nodes are"}}};
 
 const Key one_section{"section", map, "", false, &section};
 const Key one_port{"port", list | map, "", false, &port};

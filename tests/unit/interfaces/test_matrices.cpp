@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/unit/fem/formats/nastran/reference_decks.hpp"
 #include "tests/unit/interfaces/program.hpp"
 
 // Bodies that are given as matrices, through the program.
@@ -67,6 +68,38 @@ TEST_F(MatrixScene, SaysWhatItCannotDo) {
               HasSubstr("Did you mean"));
   folder_.write("k.mtx", banner_ + "8 8 2\n1 1 1\n");
   EXPECT_THAT(refused(scene("", "")), HasSubstr("k.mtx:4:1: the file ends after 1 of 2 entries"));
+}
+
+// The two superelements of a truss with booms, as NX Nastran wrote them, joined at their four nodes: a tree and three
+// closures. Its printed eigenvalues of the assembly have seven digits.
+TEST_F(MatrixScene, JoinsTheSuperelementsOfATruss) {
+  const fs::path inboard = tenon::fem::shared_deck("inboard.asm"), outboard = tenon::fem::shared_deck("outboard.asm");
+  if (!fs::exists(inboard)) GTEST_SKIP() << "the reference decks are absent: set TENON_SHARED to their folder";
+  std::string text = "units: SI\nbodies:\n", joints = "joints:\n";
+  for (const auto& [body, file] : {std::pair("inboard", inboard), std::pair("outboard", outboard)}) {
+    text +=
+        std::string("  ") + body + ":\n    matrices: {nastran: '" + fs::absolute(file).string() + "'}\n    ports:\n";
+    for (const char* node : {"3", "11", "19", "27"}) text += std::string("      p") + node + ": {node: " + node + "}\n";
+    text += "    parent_port: p3\n";
+  }
+  for (const char* node : {"3", "11", "19", "27"})
+    joints +=
+        std::string("  j") + node + ": {parent: inboard.p" + node + ", child: outboard.p" + node + ", weld: true}\n";
+  folder_.write("truss.yaml", text + joints);
+
+  std::vector<double> printed;
+  std::ifstream file(tenon::fem::shared_deck("eigenvalues.csv"));
+  for (std::string line; std::getline(file, line);) {
+    if (line.rfind("assemble,", 0) != 0) continue;
+    std::istringstream row(line);
+    std::string field;
+    for (int i = 0; i < 3; ++i) std::getline(row, field, ',');
+    printed.push_back(std::sqrt(std::max(0.0, std::stod(field))) / (2.0 * std::numbers::pi));
+  }
+  ASSERT_EQ(printed.size(), 54U);
+  const json modes = object("modes truss.yaml --full --count 30");
+  for (std::size_t k = 6; k < 30; ++k)
+    EXPECT_NEAR(modes["frequencies_hz"][k].get<double>() / printed[k], 1.0, 1e-5) << "mode " << k + 1;
 }
 
 }  // namespace
