@@ -18,6 +18,7 @@
 
 #include "assembly/scene.hpp"
 #include "fem/error.hpp"
+#include "fem/formats/deck.hpp"
 #include "fem/formats/matrices/abaqus.hpp"
 #include "fem/formats/matrices/calculix.hpp"
 #include "fem/formats/matrices/dmig.hpp"
@@ -82,6 +83,65 @@ DMIG,MAAX,2,1,,2,1,1.5
 ENDDATA
 )";
 
+constexpr const char* abaqus_deck = R"(*HEADING
+a frame
+*NODE, NSET=ALL
+1,0.,0.,0.
+2,1.,0.,0.
+3,1.,1.,0.
+4,0.,1.,0.
+5,2.,0.,0.
+*ELEMENT, TYPE=S4R, ELSET=SKIN
+1,1,2,3,4
+*ELEMENT, TYPE=B32, ELSET=BAR
+2,1,2,5
+*ELEMENT, TYPE=SPRING1, ELSET=K
+3,5
+*NSET, NSET=ROOT, GENERATE
+1,4,3
+*MATERIAL, NAME=M
+*ELASTIC
+7.0D10, .3
+*DENSITY
+2700.
+*SHELL SECTION, ELSET=SKIN, MATERIAL=M
+.01
+*BEAM SECTION, ELSET=BAR, MATERIAL=M, SECTION=I
+.05,.1,.06,.06,.01,.01,.005
+0.,1.,0.
+*SPRING, ELSET=K
+3
+1000.
+*SURFACE, NAME=S, TYPE=NODE
+2,
+3,
+*COUPLING, REF NODE=5, SURFACE=S, CONSTRAINT NAME=C
+*KINEMATIC
+1,3
+*EQUATION
+2
+4,1,1.,1,1,-1.
+*TRANSFORM, NSET=ROOT, TYPE=C
+0.,0.,1.,0.,0.,2.
+*BOUNDARY
+2,1,6
+*STEP
+*FREQUENCY
+10
+*END STEP
+)";
+
+constexpr const char* grid = R"(<?xml version="1.0"?>
+<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" header_type="UInt32">
+<UnstructuredGrid><Piece NumberOfPoints="2" NumberOfCells="1">
+<PointData><DataArray type="Float64" Name="T" format="ascii">1 2</DataArray></PointData>
+<CellData><DataArray type="Int32" Name="part" format="binary">BAAAAAcAAAA=</DataArray></CellData>
+<Points><DataArray type="Float32" NumberOfComponents="3">0 0 0 1 0 0</DataArray></Points>
+<Cells><DataArray type="Int64" Name="connectivity" format="appended" offset="0"/>
+<DataArray type="Int64" Name="offsets">2</DataArray><DataArray type="UInt8" Name="types">3</DataArray></Cells></Piece>
+</UnstructuredGrid><AppendedData encoding="base64">_EAAAAAAAAAAAAAAAAQAAAAAAAAA=</AppendedData></VTKFile>
+)";
+
 /// Files of matrices, of every kind of OP4.
 void add_matrices(std::vector<Seed>& all) {
   using fem::testing::Layout;
@@ -107,7 +167,7 @@ std::string bytes_of(const fs::path& path) {
 }
 
 std::vector<Seed> seeds() {
-  std::vector<Seed> all{{"small.bdf", deck}};
+  std::vector<Seed> all{{"small.bdf", deck}, {"frame.inp", abaqus_deck}, {"line.vtu", grid}};
   add_matrices(all);
   for (const auto& entry : fs::recursive_directory_iterator(fs::path(TENON_SOURCE_DIR) / "data"))
     if (const auto extension = entry.path().extension(); extension == ".msh" || extension == ".yaml")
@@ -169,6 +229,8 @@ void read(const fs::path& file) {
     fem::read_calculix_matrices(file.string());
   else if (file.extension() == ".yaml")
     assembly::read_scene(file);
+  else if (extension == ".inp")
+    fem::read_deck(file, true);
   else if (file.extension() == ".bdf")
     fem::read_nastran(file);
   else

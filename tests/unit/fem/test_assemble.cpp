@@ -28,8 +28,13 @@ Model random_frame(unsigned seed) {
   model.materials.push_back({"steel", 2.1e11, 8.0e10, 0.3, 7800.0});
   model.beam_sections.push_back({"rod", 1e-3, 2e-7, 3e-7, 0.0, 4e-7, 0.0, 0.0, 0.5});
   for (int i = 0; i < 9; ++i)
-    model.elements.emplace_back(Beam{
-        {i, i + 1}, 0, 0, Vec3(0.3, 0.5, 0.9), {Vec3(0.01 * i, 0, 0), Vec3::Zero()}, BeamMass::consistent, true, i});
+    model.elements.emplace_back(Beam{.nodes = {i, i + 1},
+                                     .section = 0,
+                                     .material = 0,
+                                     .orientation = Vec3(0.3, 0.5, 0.9),
+                                     .offsets = {Vec3(0.01 * i, 0, 0), Vec3::Zero()},
+                                     .mass = BeamMass::consistent,
+                                     .id = i});
   model.elements.emplace_back(PointMass{11, 4.0, Vec3(1, 2, 3).asDiagonal(), Vec3(0.1, 0, 0), 50});
   model.rigid_links.push_back({3, {11}, all_six, Mat3::Identity(), 1});
   model.average_links.push_back({10, all_six, {{0, 1, 0b111}, {4, 2, 0b111}, {7, 1, 0b111}}, 2});

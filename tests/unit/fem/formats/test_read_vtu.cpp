@@ -108,13 +108,14 @@ TEST(ReadVtu, ReadsAppendedAndEncodedArraysOfEitherOrder) {
   read(binary("AAAADD+AAABAAAAAQEAAAA=="), "UInt32", "");
 }
 
-/// meshio writes one mesh in all its encodings; every cell type, with node numbers that tell the order.
+/// meshio writes one mesh in all its encodings; every cell type that it knows (5.0 knows no wedge15 and pyramid13),
+/// with node numbers that tell the order.
 TEST(ReadVtu, ReadsWhatMeshioWrites) {
   const Scratch scratch;
   if (std::system("/usr/bin/python3 -c 'import meshio' 2>/dev/null") != 0) GTEST_SKIP() << "python3-meshio is missing";
   const auto script = scratch.write("make.py", R"(import sys, numpy as np, meshio
 types = dict(vertex=1, line=2, line3=3, triangle=3, triangle6=6, quad=4, quad8=8, quad9=9, tetra=4, tetra10=10,
-    hexahedron=8, hexahedron20=20, hexahedron27=27, wedge=6, wedge15=15, wedge18=18, pyramid=5, pyramid13=13)
+    hexahedron=8, hexahedron20=20, hexahedron27=27, wedge=6, wedge18=18, pyramid=5)
 i = np.arange(30)
 mesh = meshio.Mesh(np.c_[i / 3, i * i, -i], [(t, np.arange(2 * n).reshape(2, n) % 30) for t, n in types.items()],
     point_data={'T': i * 0.1}, cell_data={'part': [np.array([k, k + 1]) for k in range(len(types))]})
@@ -129,9 +130,10 @@ for name, o in dict(ascii=dict(binary=False), raw=dict(compression=None), zlib={
     ASSERT_EQ(mesh.points.size(), 30U) << name;
     for (int i = 0; i < 30; ++i)  // text has 12 digits: 5e-12 of the value
       EXPECT_LT((mesh.points[static_cast<std::size_t>(i)] - Vec3(i / 3.0, i * i, -i)).norm(), 5e-12 * (1 + i * i));
-    ASSERT_EQ(mesh.cells.size(), 18U) << name;
-    for (std::size_t b = 0; b < 18; ++b) {
-      EXPECT_EQ(mesh.cells[b].type, static_cast<CellType>(b)) << name;
+    ASSERT_EQ(mesh.cells.size(), 16U) << name;
+    for (std::size_t b = 0; b < 16; ++b) {
+      constexpr auto wedge15 = static_cast<std::size_t>(CellType::wedge15);
+      EXPECT_EQ(mesh.cells[b].type, static_cast<CellType>(b < wedge15 ? b : b + 1)) << name;
       ASSERT_EQ(mesh.cells[b].size(), 2) << name;
       for (std::size_t k = 0; k < mesh.cells[b].nodes.size(); ++k)
         EXPECT_EQ(mesh.cells[b].nodes[k], static_cast<int>(k) % 30) << name << " block " << b;
