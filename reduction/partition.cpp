@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
 
 #include "fem/error.hpp"
 #include "fem/mesh.hpp"
@@ -84,6 +85,14 @@ void require_stiffness_path(const fem::Structure& structure, const Partition& pa
     for (fem::SparseMatrix::InnerIterator it(structure.K, j); it; ++it)
       if (it.value() != 0.0) join(static_cast<int>(it.row()), j);
   for (const int row : parts.held) join(row, parts.held.front());
+  // a modal coordinate of a part that was reduced before is held by its own stiffness
+  const std::set<int> scalar(structure.scalar_points.begin(), structure.scalar_points.end());
+  if (!scalar.empty()) {
+    const Eigen::VectorXd k = structure.K.diagonal();
+    for (int row = 0; row < n; ++row)
+      if (k(row) > 0.0 && scalar.contains(structure.dofs.free[static_cast<std::size_t>(row)].node))
+        join(row, parts.held.front());
+  }
   std::vector<int> loose;
   for (int row = 0; row < n; ++row)
     if (piece(row) != piece(parts.held.front())) loose.push_back(row);

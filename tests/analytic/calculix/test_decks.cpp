@@ -92,7 +92,9 @@ TEST(CalculixDecks, EveryKeywordIsReadOrNamedAndCounted) {
     std::map<std::string, long> losses;
     for (const fem::Loss& loss : deck.model.losses) losses[loss.name] += loss.count;
     for (const auto& [keyword, count] : keywords(entry.path()))
-      if (!taken.contains(keyword)) EXPECT_EQ(losses["*" + keyword], count) << entry.path() << ": *" << keyword;
+      if (!taken.contains(keyword)) {
+        EXPECT_EQ(losses["*" + keyword], count) << entry.path() << ": *" << keyword;
+      }
   }
   RecordProperty("read", read);
   RecordProperty("refused", refused);

@@ -29,7 +29,7 @@ std::string portal(int n) {
   for (int e = 0; e < 3 * n; ++e) elements += fmt::format("{},{},{},{}\n", e + 1, 2 * e + 1, 2 * e + 2, 2 * e + 3);
   return "*HEADING\nportal\n" + nodes + elements +
          fmt::format(fmt::runtime(steel_and_step),
-                     "*BEAM SECTION, ELSET=FRAME, MATERIAL=STEEL, SECTION=RECT\n.03, .02\n0., 0., 1.\n",
+                     "*BEAM SECTION, ELSET=FRAME, MATERIAL=STEEL, SECTION=CIRC\n.02, .02\n0., 0., 1.\n",
                      fmt::format("1,1,6\n{},1,6\n", last + 1));
 }
 
@@ -64,18 +64,19 @@ void compare(const TemporaryFolder& folder, const std::string& deck, double tole
   for (int k = 0; k < 10; ++k) {
     const double ours = std::sqrt(modes.lambda[k]) / (2.0 * std::numbers::pi),
                  ccx = theirs[static_cast<std::size_t>(k)];
-    RecordProperty(fmt::format("mode_{}", k + 1), fmt::format("{:.6g} {:.6g}", ours, ccx));
+    ::testing::Test::RecordProperty(fmt::format("mode_{}", k + 1), fmt::format("{:.6g} {:.6g}", ours, ccx));
     EXPECT_NEAR(ours / ccx, 1.0, tolerance) << "mode " << k + 1 << ": " << ours << " against " << ccx << " Hz";
   }
 }
 
 }  // namespace
 
-// Slender members: bending decides; CalculiX joins the members' solids by a rigid knot of the section's size, .02 m of
-// a member's 1 m, which is the larger part of the difference.
+// CalculiX makes one solid element of second order of the section and stiff knots of the corners: its frequencies lie
+// above and come down as elements are added (10 a member: 4.0 % at worst, 20: 1.6 %). Rectangles stay 3 % apart in
+// torsion: one element cannot warp as Saint-Venant's section does.
 TEST(CalculixFrequencies, APortalOfBeams) {
   if (!calculix::installed()) GTEST_SKIP() << "CalculiX (calculix-ccx) is not installed";
-  compare(TemporaryFolder(), portal(10), 2e-2);
+  compare(TemporaryFolder(), portal(20), 2e-2);
 }
 
 TEST(CalculixFrequencies, APlateOfShells) {

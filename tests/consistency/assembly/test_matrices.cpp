@@ -76,7 +76,8 @@ TEST_P(Matrices, AloneHaveTheSameFrequencies) {
   const reduction::Modes a = modes(fe_), b = modes(matrices_);
   ASSERT_EQ(a.rigid, 6);
   ASSERT_EQ(b.rigid, 6);
-  for (int k = 6; k < 14; ++k) EXPECT_NEAR(std::sqrt(b.lambda[k] / a.lambda[k]), 1.0, 1e-12) << k;
+  // rows in another order: other round-off in the factor of K, whose largest eigenvalue is 1e8 times these
+  for (int k = 6; k < 14; ++k) EXPECT_NEAR(std::sqrt(b.lambda[k] / a.lambda[k]), 1.0, 1e-11) << k;
 }
 
 // Links add the entries in another order: round-off of K over its lowest eigenvalue, 1e-9.

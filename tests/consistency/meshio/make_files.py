@@ -39,9 +39,10 @@ def random_mesh(rng, types, cell_numbers, one_type):
         chosen = [types[rng.integers(len(types))]]
     cells, number = [], []
     for t in chosen:
-        count = int(rng.integers(1, 6))
-        cells.append((t, np.array([rng.permutation(n_points)[:WIDTHS[t]] for _ in range(count)])))
-        number.append(rng.integers(1, 4, size=count))
+        nodes = [rng.permutation(n_points)[:WIDTHS[t]] for _ in range(int(rng.integers(1, 6)))]
+        distinct = {tuple(sorted(n)): n for n in nodes}  # MSH 2 cannot tell two equal cells from one in two groups
+        cells.append((t, np.array(list(distinct.values()))))
+        number.append(rng.integers(1, 4, size=len(distinct)))
     data = {"T": rng.normal(size=n_points), "u": rng.normal(size=(n_points, 3))} if cell_numbers else {}
     return meshio.Mesh(points, cells, point_data=data, cell_data={"part": number} if cell_numbers else {})
 
@@ -72,6 +73,8 @@ def main():
     for k in range(count):
         for name, (kind, options, digits) in FORMATS.items():
             types = [t for t in ABAQUS if t in WIDTHS] if kind == "abaqus" else list(WIDTHS)
+            if kind.startswith("gmsh"):
+                types.remove("wedge18")  # which meshio 5.0 writes in VTK's order
             mesh = random_mesh(rng, types, kind == "vtu", kind == "gmsh")
             stem = f"{folder}/{name}-{k}"
             write_truth(f"{stem}.truth", mesh, digits)
