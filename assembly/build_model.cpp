@@ -23,7 +23,7 @@ void check_losses(const std::vector<fem::Loss>& losses, const SceneBody& body, c
                        fmt::format("Take it out of the file, or accept the loss with `allow: [{}]`", loss.name));
 }
 
-int add_node(fem::Model& model, const Vec3& point) {
+int add_own_node(fem::Model& model, const Vec3& point) {
   const long id = -1 - static_cast<long>(std::count_if(model.node_ids.begin(), model.node_ids.end(),
                                                        [](long existing) { return existing < 0; }));
   model.nodes.push_back(point);
@@ -49,7 +49,7 @@ int port_node(const ScenePort& port, const MeshNodes& nodes, fem::Model& model) 
   Vec3 centre = Vec3::Zero();
   for (const int node : set) centre += model.nodes[static_cast<std::size_t>(node)] / static_cast<double>(set.size());
   if (set.size() == 1 && (!port.where.centre || (*port.where.centre - centre).norm() == 0.0)) return set.front();
-  const int made = add_node(model, port.where.centre.value_or(centre));
+  const int made = add_own_node(model, port.where.centre.value_or(centre));
   if (port.average) {
     fem::AverageLink link{.reference = made, .nodes = {}, .id = model.node_ids.back()};
     for (const int node : set) link.nodes.push_back({.node = node});

@@ -131,7 +131,8 @@ Step newton_step(const Multibody& system, const SteadyMotion& motion, const std:
   if (J.rows() > 0) {
     N = row_space(J, J.rowwise().norm(), "the rows that close the loops").null;
     const ClosureRows rows = closures(system, motion.state);
-    step = J.completeOrthogonalDecomposition().solve(-rows.gap);
+    const VectorXd closing = -rows.gap;
+    step = J.completeOrthogonalDecomposition().solve(closing);
     result.gap = rows.gap.cwiseAbs().maxCoeff() / rows.length;
   }
   const VectorXd out = N.transpose() * (force + K * step);

@@ -225,7 +225,7 @@ Mat6X averaging_matrix(const Model& model, const AverageLink& link) {
       ++column;
     }
   }
-  const Eigen::SelfAdjointEigenSolver<Mat6> eigen(normal);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(Eigen::MatrixXd{normal});
   if (eigen.eigenvalues()(0) <= 1e-12 * eigen.eigenvalues()(5))
     throw ModelError(
         fmt::format(

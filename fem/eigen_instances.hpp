@@ -77,6 +77,21 @@ constexpr int mr = Traits::mr, nr = Traits::nr, progress = Traits::LhsProgress;
   DECLARE Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>& Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>::compute(     \
       const Eigen::EigenBase<Eigen::MatrixXd>&, int);                                                                  \
   DECLARE Eigen::LLT<Eigen::MatrixXd>& Eigen::LLT<Eigen::MatrixXd>::compute(const Eigen::EigenBase<Eigen::MatrixXd>&); \
+  DECLARE void Eigen::LLT<Eigen::MatrixXd>::_solve_impl(const Eigen::VectorXd&, Eigen::VectorXd&) const;               \
+  DECLARE void Eigen::LLT<Eigen::MatrixXd>::_solve_impl(const Eigen::MatrixXd&, Eigen::MatrixXd&) const;               \
+  DECLARE Eigen::LDLT<Eigen::MatrixXd>& Eigen::LDLT<Eigen::MatrixXd>::compute(                                         \
+      const Eigen::EigenBase<Eigen::MatrixXd>&);                                                                       \
+  DECLARE void Eigen::LDLT<Eigen::MatrixXd>::_solve_impl(const Eigen::VectorXd&, Eigen::VectorXd&) const;              \
+  DECLARE void Eigen::LDLT<Eigen::MatrixXd>::_solve_impl(const Eigen::MatrixXd&, Eigen::MatrixXd&) const;              \
+  DECLARE Eigen::ColPivHouseholderQR<Eigen::MatrixXd>& Eigen::ColPivHouseholderQR<Eigen::MatrixXd>::compute(           \
+      const Eigen::EigenBase<Eigen::MatrixXd>&);                                                                       \
+  DECLARE void Eigen::ColPivHouseholderQR<Eigen::MatrixXd>::_solve_impl(const Eigen::VectorXd&, Eigen::VectorXd&)      \
+      const;                                                                                                           \
+  DECLARE void Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>::_solve_impl(const Eigen::VectorXd&,            \
+                                                                                    Eigen::VectorXd&) const;           \
+  DECLARE void Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>::_solve_impl(const Eigen::MatrixXd&,            \
+                                                                                    Eigen::MatrixXd&) const;           \
+  DECLARE void Eigen::FullPivLU<Eigen::MatrixXd>::_solve_impl(const Eigen::VectorXd&, Eigen::VectorXd&) const;         \
   DECLARE void Eigen::internal::tridiagonalization_inplace(Eigen::MatrixXd&, Eigen::VectorXd&);                        \
   DECLARE void Eigen::internal::apply_block_householder_on_the_left(                                                   \
       Eigen::Block<Eigen::MatrixXd, Eigen::Dynamic, Eigen::Dynamic>&,                                                  \

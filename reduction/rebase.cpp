@@ -11,7 +11,7 @@ namespace tenon::reduction {
 
 namespace {
 
-constexpr double massless = 1e-13;  // of the largest 1/ω: below, a direction has no mass but rounding
+constexpr double massless_mode = 1e-13;  // of the largest 1/ω: below, a direction has no mass but rounding
 
 }  // namespace
 
@@ -41,7 +41,7 @@ ReducedBody rebase(const ReducedBody& body, int port) {
   const Eigen::VectorXd flexibility = body.omega.cwiseInverse();  // its root
   const ThinSvd svd = thin_svd(A * flexibility.asDiagonal());
   Eigen::Index finite = 0;
-  while (finite < n && svd.sigma[finite] > massless * svd.sigma[0]) ++finite;
+  while (finite < n && svd.sigma[finite] > massless_mode * svd.sigma[0]) ++finite;
   if (n > 0 && finite == 0)
     throw ModelError(fmt::format("body '{}' has stiffness but no mass at all", body.name), "Give it mass");
   Eigen::VectorXd omega = svd.sigma.cwiseInverse();

@@ -58,8 +58,8 @@ namespace {
 double least_scaled(const Mat6& A, const Mat6& scale_by) {
   Eigen::Matrix<double, 6, 1> s = scale_by.diagonal().cwiseMax(0.0).cwiseSqrt();
   for (double& x : s) x = x > 0.0 ? 1.0 / x : 1.0;
-  return Eigen::SelfAdjointEigenSolver<Mat6>(s.asDiagonal() * A * s.asDiagonal(), Eigen::EigenvaluesOnly)
-      .eigenvalues()[0];
+  const Eigen::MatrixXd scaled = s.asDiagonal() * A * s.asDiagonal();
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly).eigenvalues()[0];
 }
 
 }  // namespace

@@ -54,8 +54,8 @@ Mat6 mass_root(const Mat6& D, const Vec6& scale) {
   Vec6 inverse = Vec6::Zero();
   for (int i = 0; i < 6; ++i)
     if (s[i] > 0.0) inverse[i] = 1.0 / s[i];
-  const Eigen::SelfAdjointEigenSolver<Mat6> eigen(inverse.asDiagonal() * (0.5 * (D + D.transpose())) *
-                                                  inverse.asDiagonal());
+  const MatrixXd scaled = inverse.asDiagonal() * (0.5 * (D + D.transpose())) * inverse.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(scaled);
   Vec6 root = Vec6::Zero();
   for (int i = 0; i < 6; ++i)
     if (eigen.eigenvalues()[i] > 1e-12) root[i] = std::sqrt(eigen.eigenvalues()[i]);

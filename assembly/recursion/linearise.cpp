@@ -76,7 +76,8 @@ LinearMotion linearise(const Multibody& system, const MotionState& state, const 
   restiffen(system, state.q, v_dot, sweeps);
   inverse_dynamics(system, sweeps, v_dot, T);
   passive_forces(system, state.q, state.v, held);
-  const VectorXd lambda = rows.rows() > 0 ? VectorXd(rows.J_t.completeOrthogonalDecomposition().solve(T - held))
+  const VectorXd driven = T - held;
+  const VectorXd lambda = rows.rows() > 0 ? VectorXd(rows.J_t.completeOrthogonalDecomposition().solve(driven))
                                           : VectorXd();  // what the closures carry
   const auto residual = [&](const VectorXd& q, const VectorXd& v) {
     set_state(system, q, v, sweeps);

@@ -11,9 +11,14 @@ namespace tenon::assembly {
 
 namespace {
 
-// Axes whose z is the joint's axis, in the parent port's axes.
+// Axes whose z is the joint's axis a, in the parent port's axes: the least turn that takes z there,
+// R = 1 + ṽ + ṽ²/(1 + c), v = z × a, c = z · a; half a turn about x where a = −z.
 Mat3 axis_frame(const Joint& joint) {
-  return Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), joint.axis).toRotationMatrix();
+  const Vec3 a = joint.axis.normalized();
+  const double c = a.z();
+  if (c < -1.0 + 1e-12) return Vec3(1.0, -1.0, -1.0).asDiagonal();
+  const Mat3 v = fem::skew(Vec3::UnitZ().cross(a));
+  return Mat3::Identity() + v + v * v / (1.0 + c);
 }
 
 struct HingeFrames {

@@ -18,7 +18,7 @@ namespace {
 using assembly::FrequencyResponse;
 
 /// What was computed, with names and units.
-struct Result {
+struct ResponseResult {
   titop::Channel input;
   std::vector<titop::Channel> outputs;
   std::vector<FrequencyResponse> responses;
@@ -64,7 +64,7 @@ std::pair<double, double> band_of(const FrfOptions& options, const assembly::Sce
   return {low, high};
 }
 
-Result compute(const FrfOptions& options) {
+ResponseResult compute(const FrfOptions& options) {
   const assembly::Scene scene = assembly::read_scene(options.scene);
   assembly::Network network;
   {
@@ -83,7 +83,7 @@ Result compute(const FrfOptions& options) {
 
   const assembly::SystemModes modes = assembly::modes(system);
   const auto [low, high] = band_of(options, scene, modes);
-  Result result{ss.inputs[static_cast<std::size_t>(inputs.front())], {}, {}};
+  ResponseResult result{ss.inputs[static_cast<std::size_t>(inputs.front())], {}, {}};
   for (const int k : outputs) result.outputs.push_back(ss.outputs[static_cast<std::size_t>(k)]);
   result.responses = assembly::frequency_responses(system, outputs, inputs.front(),
                                                    assembly::response_grid(modes, low, high, options.points));
@@ -92,11 +92,11 @@ Result compute(const FrfOptions& options) {
 
 double degrees(const std::complex<double>& value) { return std::arg(value) * 180.0 / std::numbers::pi; }
 
-std::string ratio_unit(const Result& result, std::size_t k) {
+std::string ratio_unit(const ResponseResult& result, std::size_t k) {
   return fmt::format("({})/({})", result.outputs[k].unit, result.input.unit);
 }
 
-Json to_json(const Result& result) {
+Json to_json(const ResponseResult& result) {
   Json object{{"from", result.input.name}, {"frequencies_hz", Json::array()}, {"responses", Json::array()}};
   for (const double omega : result.responses.front().omega) object["frequencies_hz"].push_back(hertz(omega));
   for (std::size_t k = 0; k < result.outputs.size(); ++k) {
@@ -111,7 +111,7 @@ Json to_json(const Result& result) {
   return object;
 }
 
-void write_csv(const std::filesystem::path& path, const Result& result) {
+void write_csv(const std::filesystem::path& path, const ResponseResult& result) {
   fem::AtomicFile file(path);
   std::string line = "frequency_hz";
   for (std::size_t k = 0; k < result.outputs.size(); ++k)
@@ -126,7 +126,7 @@ void write_csv(const std::filesystem::path& path, const Result& result) {
   file.commit();
 }
 
-void write_output(const std::filesystem::path& path, const Result& result) {
+void write_output(const std::filesystem::path& path, const ResponseResult& result) {
   if (path.extension() == ".csv") return write_csv(path, result);
   if (path.extension() != ".json")
     throw InputError({path.string()}, "the response can be written as .csv or .json", "Choose one of the two endings");
@@ -135,7 +135,7 @@ void write_output(const std::filesystem::path& path, const Result& result) {
   file.commit();
 }
 
-report::Plot picture(const Result& result) {
+report::Plot picture(const ResponseResult& result) {
   bool one_unit = true;
   for (const titop::Channel& output : result.outputs) one_unit = one_unit && output.unit == result.outputs.front().unit;
   report::Plot plot{.title = result.outputs.size() == 1
@@ -156,7 +156,7 @@ report::Plot picture(const Result& result) {
 }
 
 /// Peaks of each response, highest first, at most eight.
-void print_people(const Result& result) {
+void print_people(const ResponseResult& result) {
   const FrequencyResponse& first = result.responses.front();
   print(fmt::format("Response to {} [{}], {:.4g} to {:.4g} Hz, {} points", result.input.name, result.input.unit,
                     hertz(first.omega.front()), hertz(first.omega.back()), first.omega.size()));
@@ -184,7 +184,7 @@ void print_people(const Result& result) {
 }  // namespace
 
 int run(const FrfOptions& options) {
-  const Result result = compute(options);
+  const ResponseResult result = compute(options);
   if (!options.output.empty()) write_output(options.output, result);
   if (!options.svg.empty()) report::write_svg(options.svg, picture(result));
   if (options.json) {

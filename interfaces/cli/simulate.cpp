@@ -34,7 +34,7 @@ struct Deforming {
   double deflection = 0.0;
 };
 
-struct Result {
+struct RunResult {
   assembly::IntegrationOptions run;
   std::vector<assembly::Channel> channels;
   std::size_t outputs = 0;
@@ -114,7 +114,7 @@ std::vector<Deforming> deforming(const assembly::Multibody& system) {
 }
 
 /// What the motion left out of bodies whose deformation is dropped, where it is not small.
-void note_deflections(double tolerance, Result& result) {
+void note_deflections(double tolerance, RunResult& result) {
   for (const Deforming& body : result.bodies)
     if (!body.full && body.deflection > tolerance)
       result.notes.push_back(
@@ -123,7 +123,7 @@ void note_deflections(double tolerance, Result& result) {
                       body.name, body.deflection));
 }
 
-void note_spin(const assembly::Multibody& system, const assembly::SpinRatio& spin, Result& result) {
+void note_spin(const assembly::Multibody& system, const assembly::SpinRatio& spin, RunResult& result) {
   if (spin.body < 0 || spin.ratio < 0.1) return;
   result.notes.push_back(fmt::format(
       "Body '{}' turned at {:.2g} of its first frequency and carries no geometric stiffening: its bending comes "
@@ -152,10 +152,10 @@ class OutputFolder {
   bool made_ = false;
 };
 
-Result compute(const SimulateOptions& options) {
+RunResult compute(const SimulateOptions& options) {
   const assembly::Scene scene = assembly::read_moving_scene(options.scene);
   assembly::SceneSimulation section = assembly::read_simulation(scene);
-  Result result;
+  RunResult result;
   result.run = run_options(options, section);
   ProgressBar bar;
   const auto progress = bar.callback();
@@ -213,7 +213,7 @@ Result compute(const SimulateOptions& options) {
   return result;
 }
 
-void write_csv(const std::filesystem::path& path, const Result& result) {
+void write_csv(const std::filesystem::path& path, const RunResult& result) {
   fem::AtomicFile file(path);
   file.stream() << "t_s";
   for (const assembly::Channel& c : result.channels) file.stream() << fmt::format(",{} [{}]", c.name, c.unit);
@@ -228,7 +228,7 @@ void write_csv(const std::filesystem::path& path, const Result& result) {
 }
 
 /// One picture for the outputs of each unit, one for the energies.
-std::vector<std::filesystem::path> write_pictures(const SimulateOptions& options, const Result& result) {
+std::vector<std::filesystem::path> write_pictures(const SimulateOptions& options, const RunResult& result) {
   std::vector<std::filesystem::path> written;
   const auto draw = [&](const std::string& file, const std::string& title, const std::string& label, auto&& take) {
     report::Plot plot{
@@ -255,7 +255,7 @@ std::vector<std::filesystem::path> write_pictures(const SimulateOptions& options
   return written;
 }
 
-std::vector<std::filesystem::path> write_files(const SimulateOptions& options, const Result& result) {
+std::vector<std::filesystem::path> write_files(const SimulateOptions& options, const RunResult& result) {
   const std::string stem = options.resume.empty() ? "history" : fmt::format("history_from_{:g}", result.t.front());
   std::vector<std::filesystem::path> written{options.out / (stem + ".csv"), options.out / (stem + ".npz")};
   write_csv(written[0], result);
@@ -268,7 +268,7 @@ std::vector<std::filesystem::path> write_files(const SimulateOptions& options, c
   return written;
 }
 
-Json to_json(const Result& result, const std::vector<std::filesystem::path>& files) {
+Json to_json(const RunResult& result, const std::vector<std::filesystem::path>& files) {
   const assembly::Integration& i = result.integration;
   Json object{{"method", name(result.run.method)},
               {"begin_s", result.t.front()},
@@ -312,7 +312,7 @@ Json to_json(const Result& result, const std::vector<std::filesystem::path>& fil
   return object;
 }
 
-void print_deformation(const Result& result) {
+void print_deformation(const RunResult& result) {
   for (const assembly::DeformationPlan& body : result.plan)
     print(wrapped(fmt::format("Body '{}' is taken as {}: {}.", body.body, word(body.level), body.why), 0));
   if (result.bodies.empty()) return;
@@ -325,7 +325,7 @@ void print_deformation(const Result& result) {
 }  // namespace
 
 int run(const SimulateOptions& options) {
-  const Result result = compute(options);
+  const RunResult result = compute(options);
   const assembly::Integration& i = result.integration;
   if (result.t.empty() && !i.failure.empty()) throw Error(i.failure);
   if (result.t.empty())

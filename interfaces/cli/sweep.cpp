@@ -18,7 +18,7 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
 
-struct Result {
+struct SweepResult {
   std::string joint;
   std::vector<std::string> joints;  ///< names of all
   std::vector<assembly::SweepPoint> points;
@@ -54,12 +54,12 @@ double angle_of(const std::string& text, const char* option) {
   return unit == "rad" ? value : value * degree;
 }
 
-Result compute(const SweepOptions& options) {
+SweepResult compute(const SweepOptions& options) {
   const assembly::Scene scene = assembly::read_scene(options.scene);
   ProgressBar bar;
   const assembly::Network network = assembly::build_network(scene, assembly::plan(scene), bar.callback());
   const int joint = joint_named(network, options.joint, options.scene);
-  Result result{options.joint, {}, {}, {}};
+  SweepResult result{options.joint, {}, {}, {}};
   for (const assembly::Joint& j : network.joints) result.joints.push_back(j.name);
   assembly::SweepOptions sweep{.from = angle_of(options.from, "--from"),
                                .to = angle_of(options.to, "--to"),
@@ -76,7 +76,7 @@ Result compute(const SweepOptions& options) {
   return result;
 }
 
-std::size_t flexible_modes(const Result& result, int asked) {
+std::size_t flexible_modes(const SweepResult& result, int asked) {
   std::size_t most = 0;
   for (const assembly::SweepPoint& point : result.points)
     most = std::max(most, static_cast<std::size_t>(point.omega.size() - point.rigid));
@@ -88,7 +88,7 @@ double flexible(const assembly::SweepPoint& point, std::size_t k) {
   return at < point.omega.size() ? point.omega[at] : std::numeric_limits<double>::quiet_NaN();
 }
 
-Json to_json(const Result& result, const SweepOptions& options) {
+Json to_json(const SweepResult& result, const SweepOptions& options) {
   Json object{{"joint", result.joint}, {"held", options.hold}, {"points", Json::array()}};
   for (const assembly::SweepPoint& point : result.points) {
     Json entry{{"angle_deg", point.angle / degree}, {"rigid_modes", point.rigid}, {"frequencies_hz", Json::array()}};
@@ -100,7 +100,7 @@ Json to_json(const Result& result, const SweepOptions& options) {
   return object;
 }
 
-void write_csv(const std::filesystem::path& path, const Result& result, std::size_t modes) {
+void write_csv(const std::filesystem::path& path, const SweepResult& result, std::size_t modes) {
   fem::AtomicFile file(path);
   file.stream() << result.joint << "_deg,rigid_modes";
   for (std::size_t k = 0; k < modes; ++k) file.stream() << fmt::format(",f{}_hz", k + 1);
@@ -113,7 +113,7 @@ void write_csv(const std::filesystem::path& path, const Result& result, std::siz
   file.commit();
 }
 
-report::Plot picture(const Result& result, std::size_t modes, bool hold) {
+report::Plot picture(const SweepResult& result, std::size_t modes, bool hold) {
   report::Plot plot{.title = fmt::format("Natural frequencies against the angle of '{}'{}", result.joint,
                                          hold ? ", held at each angle" : ""),
                     .x_label = "angle [deg]",
@@ -133,7 +133,7 @@ report::Plot picture(const Result& result, std::size_t modes, bool hold) {
 }
 
 /// PREFIX_0.svg, PREFIX_180.svg ... of --shapes PREFIX.svg; the file itself when there is one angle.
-std::vector<std::filesystem::path> write_shapes(const Result& result, const SweepOptions& options) {
+std::vector<std::filesystem::path> write_shapes(const SweepResult& result, const SweepOptions& options) {
   std::vector<std::filesystem::path> written;
   for (std::size_t p = 0; p < result.pictures.size(); ++p) {
     const assembly::SweepPoint& point = result.pictures[p];
@@ -164,7 +164,7 @@ int run(const SweepOptions& given) {
   if (!options.shapes.empty() && options.at.empty()) options.at = {0.0, 180.0};
   if (options.shapes.empty() && !options.at.empty())
     throw InputError({"--at"}, "angles are given for pictures that are not asked for", "Add --shapes FILE.svg");
-  const Result result = compute(options);
+  const SweepResult result = compute(options);
   const std::size_t modes = flexible_modes(result, options.modes);
   std::vector<std::filesystem::path> written;
   if (!options.output.empty()) write_csv(options.output, result, modes), written.push_back(options.output);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double panel = 320.0, margin = 26.0, head = 48.0, foot = 30.0;
 constexpr int across = 3;
-constexpr std::array<const char*, 5> colours{"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00"};
+constexpr std::array<const char*, 5> body_colours{"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00"};
 
 struct View {
   double x0, y0, scale;  // world point that lies in the middle of a panel; pixels a metre
@@ -69,7 +69,7 @@ void write_motion_svg(const std::filesystem::path& path, const MotionPicture& pi
     for (std::size_t b = 0; b < picture.bodies.size(); ++b)
       for (const double sign : {1.0, -1.0})
         svg += line(picture.bodies[b], view, mode, sign * amplitude,
-                    fmt::format("stroke=\"{}\" stroke-width=\"{}\"{}", colours[b % colours.size()],
+                    fmt::format("stroke=\"{}\" stroke-width=\"{}\"{}", body_colours[b % body_colours.size()],
                                 sign > 0.0 ? 2.2 : 1.2, sign > 0.0 ? "" : " stroke-dasharray=\"5 4\"")
                         .c_str());
     for (const assembly::BodyShapes& body : picture.bodies)

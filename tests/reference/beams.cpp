@@ -63,13 +63,13 @@ ReducedBody polynomial_beam(const std::string& name) {
       -5544, -3432, -52, -3732, 832, -69,     //
       462, 264, 5, 281, -69, 6;
   M /= 55440.0;
-  Eigen::Matrix4d K;
+  Eigen::MatrixXd K(4, 4);
   K << 6, -30, 8, 1, -30, 1200, -600, 30, 8, -600, 384, -22, 1, 30, -22, 6;
   K /= 70.0;
   Eigen::Matrix<double, 2, 4> Phi;
   Phi << 0, 1, 0, 0, 0, 0, 1, 0;
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix4d> eigen(K, M.bottomRightCorner<4, 4>());
-  const Eigen::Matrix4d V = eigen.eigenvectors();
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(K, Eigen::MatrixXd(M.bottomRightCorner<4, 4>()));
+  const Eigen::MatrixXd V = eigen.eigenvectors();
   return planar_beam(name, eigen.eigenvalues().cwiseSqrt(), V.transpose() * M.bottomLeftCorner<4, 2>(), Phi * V);
 }
 

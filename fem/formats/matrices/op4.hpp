@@ -26,6 +26,9 @@ std::vector<NamedMatrix> read_op4(const std::filesystem::path& file);
 
 namespace matrices {
 
+/// What to do about a file whose numbers do not add up.
+inline constexpr auto damaged = "The file may be cut off or damaged; write it again";
+
 /// Fills one column: strings of numbers at rows that rise, inside the declared size, finite.
 class ColumnFiller {
  public:

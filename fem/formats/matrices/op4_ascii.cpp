@@ -21,11 +21,9 @@ using nastran::parse_real;
 using nastran::trim;
 using nastran::upper;
 
-constexpr auto cure = "The file may be cut off or damaged; write it again";
-
-class Reader {
+class AsciiReader {
  public:
-  Reader(const std::string& file, std::string_view bytes) : file_(file), rest_(bytes) {}
+  AsciiReader(const std::string& file, std::string_view bytes) : file_(file), rest_(bytes) {}
 
   std::vector<NamedMatrix> read() {
     std::vector<NamedMatrix> all;
@@ -38,7 +36,7 @@ class Reader {
 
  private:
   [[noreturn]] void fail(const std::string& what, long column = 0) const {
-    throw InputError({file_, number_, column}, what, cure);
+    throw InputError({file_, number_, column}, what, damaged);
   }
   void check(const std::string& fault) const {
     if (!fault.empty()) fail(fault);
@@ -175,7 +173,7 @@ class Reader {
 }  // namespace
 
 std::vector<NamedMatrix> read_op4_ascii(const std::string& file, const std::string& bytes) {
-  return Reader(file, bytes).read();
+  return AsciiReader(file, bytes).read();
 }
 
 }  // namespace tenon::fem::matrices

@@ -15,11 +15,9 @@
 namespace tenon::fem::matrices {
 namespace {
 
-constexpr auto cure = "The file may be cut off or damaged; write it again";
-
-class Reader {
+class BinaryReader {
  public:
-  Reader(const std::string& file, std::string_view bytes) : file_(file), bytes_(bytes) {
+  BinaryReader(const std::string& file, std::string_view bytes) : file_(file), bytes_(bytes) {
     swapped_ = bytes_[0] == 0;  // the length of the first record is 24 or 48
     word_ = bytes_[swapped_ ? 3 : 0] == 48 ? 8 : 4;
   }
@@ -32,7 +30,7 @@ class Reader {
 
  private:
   [[noreturn]] void fail(const std::string& what) const {
-    throw InputError({file_}, fmt::format("{} (byte {})", what, at_), cure);
+    throw InputError({file_}, fmt::format("{} (byte {})", what, at_), damaged);
   }
   void check(const std::string& fault) const {
     if (!fault.empty()) fail(fault);
@@ -148,7 +146,7 @@ class Reader {
 }  // namespace
 
 std::vector<NamedMatrix> read_op4_binary(const std::string& file, const std::string& bytes) {
-  return Reader(file, bytes).read();
+  return BinaryReader(file, bytes).read();
 }
 
 }  // namespace tenon::fem::matrices

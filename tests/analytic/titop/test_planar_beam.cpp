@@ -106,7 +106,7 @@ TEST(PlanarBeam, IsEquation24EntryForEntry) {
   C = T * C;
 
   // q = V η: V from −A, scaled and signed by the first row of B that both have, F_C^y or F_C^x
-  const Eigen::EigenSolver<MatrixXd> eigen(-A.block(5, 0, 5, 5));
+  const Eigen::EigenSolver<MatrixXd> eigen(MatrixXd(-A.block(5, 0, 5, 5)));
   std::vector<int> order{0, 1, 2, 3, 4};
   std::sort(order.begin(), order.end(),
             [&](int a, int b) { return eigen.eigenvalues()[a].real() < eigen.eigenvalues()[b].real(); });

@@ -48,7 +48,7 @@ class Simulate : public Program {
 };
 
 /// A blade on a flywheel that is spun up to 6 rad/s in 15 s: the data of REFERENCES' spin-up, ρA 1.2, EI 1.4e4, L 10.
-const std::string blade = tenon::blade_scene(R"(inputs: {drive: {at: axle}, ease: {at: axle}}
+const std::string spun_blade = tenon::blade_scene(R"(inputs: {drive: {at: axle}, ease: {at: axle}}
 outputs: {turn: {at: axle, measure: angle}, tip: {at: blade.C, displacement: [x, y]}}
 simulation:
   time: 8
@@ -61,7 +61,7 @@ simulation:
 // stiffening, without rotary inertia and stretch (an independent Ritz computation). Those are 1e-3 of it here, as is
 // the nonlinear rest; a row stands every 0.02 s.
 TEST_F(Simulate, ABladeLagsAsPublished) {
-  const std::string scene = folder_.write("blade.yaml", blade).string();
+  const std::string scene = folder_.write("blade.yaml", spun_blade).string();
   const Ended run = tenon("simulate " + scene + " --out run");
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_THAT(run.out, Not(HasSubstr("no geometric stiffening")));  // meshes and beams carry it
@@ -85,7 +85,7 @@ TEST_F(Simulate, ABladeLagsAsPublished) {
 // cent.
 TEST_F(Simulate, BodiesDeformAsTheSceneSays) {
   const auto run = [&](const std::string& level) {
-    std::string scene = blade;
+    std::string scene = spun_blade;
     scene.replace(scene.find("  time: 8"), 9, "  deformation: " + level + "\n  time: 7");
     return object("simulate " + folder_.write("blade.yaml", scene).string());
   };
@@ -100,7 +100,7 @@ TEST_F(Simulate, BodiesDeformAsTheSceneSays) {
     if (channel["name"] != "energy.elastic") continue;
     EXPECT_EQ(channel["most"].get<double>(), 0.0);
   }
-  std::string scene = blade;
+  std::string scene = spun_blade;
   scene.replace(scene.find("  time: 8"), 9, "  deformation: {blad: rigid}\n  time: 8");
   const Ended refused = tenon("simulate " + folder_.write("blade.yaml", scene).string());
   EXPECT_EQ(refused.status, 2);
@@ -108,7 +108,7 @@ TEST_F(Simulate, BodiesDeformAsTheSceneSays) {
 }
 
 TEST_F(Simulate, ABladeGoesOnBitForBit) {
-  const std::string scene = folder_.write("blade.yaml", blade).string();
+  const std::string scene = folder_.write("blade.yaml", spun_blade).string();
   ASSERT_EQ(tenon("simulate " + scene + " --time 2 --out whole").status, 0);
   ASSERT_EQ(tenon("simulate " + scene + " --time 1 --out half").status, 0);
   ASSERT_EQ(tenon("simulate " + scene + " --time 2 --resume half/checkpoint.json --out rest").status, 0);
@@ -197,7 +197,7 @@ TEST_F(Simulate, OptionsThatContradictAreRefused) {
 
 // Beams in closed form come without shape integrals.
 TEST_F(Simulate, BodiesWithoutShapeIntegralsAreNamed) {
-  std::string scene = blade;
+  std::string scene = spun_blade;
   scene.replace(scene.find("elements: 20"), 12, "model: titop-polynomial");
   scene.replace(scene.find("    reduction: {modes: 6}\n"), 26, "");
   const std::string file = folder_.write("closed.yaml", scene).string();

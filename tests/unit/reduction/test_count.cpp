@@ -11,7 +11,7 @@ using namespace tenon::tests;
 
 namespace {
 
-ModesOptions sparse(int count) { return {.count = count, .dense_below = 0}; }
+ModesOptions sparse_search(int count) { return {.count = count, .dense_below = 0}; }
 
 // λ = 0.1, 0.2, … of a shift-invert operator at s = 0, all with one relative residual
 RitzValues ritz_values(int count, double residual) {
@@ -37,7 +37,7 @@ TEST(Count, IsForeseenInTheGapThatTheFinalValuesHave) {
     sigma = foresee_cut(ritz, 9, 0.0);
     step = steps;
   };
-  const LanczosResult run = find_pairs(op, sparse(9), unlocked, 9, 8, 1, 0.0, std::nullopt, watch);
+  const LanczosResult run = find_pairs(op, sparse_search(9), unlocked, 9, 8, 1, 0.0, std::nullopt, watch);
   ASSERT_TRUE(sigma);
   EXPECT_LT(step, run.steps - 1);  // time is left to count in
   EXPECT_GT(*sigma, exact[8]);
@@ -78,7 +78,7 @@ TEST(Count, AWrongForesightIsCountedAnew) {
     const ShiftedFactor at =
         choose_shift(p.K, p.M, none, {}, [&](const Factor& ordered) { count.prepare(p.K, p.M, ordered); });
     count.foresee(p.K, p.M, wrong);
-    const Modes modes = solve_modes(p.K, p.M, at, none, sparse(9), &count);
+    const Modes modes = solve_modes(p.K, p.M, at, none, sparse_search(9), &count);
     EXPECT_EQ(modes.counted, 9);
     EXPECT_GT(modes.count_shift, exact[8]);
     EXPECT_LT(modes.count_shift, exact[9]);
