@@ -12,6 +12,7 @@
 #include "fem/elements/spring.hpp"
 #include "fem/error.hpp"
 #include "fem/matrix_part.hpp"
+#include "fem/shell_directors.hpp"
 #include "fem/sparsity.hpp"
 #include "fem/structure.hpp"
 
@@ -47,7 +48,8 @@ FullDofs full_dofs(const Element& element) {
   return dofs;
 }
 
-void element_matrices(const Model& model, const Element& element, ElementMatrices& out) {
+void element_matrices(const Model& model, std::span<const Vec3> directors, const Element& element,
+                      ElementMatrices& out) {
   const auto material = [&](int i) -> const Material& { return model.materials[static_cast<std::size_t>(i)]; };
   const auto shell = [&](int i) -> const ShellSection& { return model.shell_sections[static_cast<std::size_t>(i)]; };
   std::visit(
@@ -56,7 +58,9 @@ void element_matrices(const Model& model, const Element& element, ElementMatrice
                                  model.nodes, out);
                  },
                  [&](const Quad4& e) { quad4_matrices(e, shell(e.section), material(e.material), model.nodes, out); },
-                 [&](const Tria3& e) { tria3_matrices(e, shell(e.section), material(e.material), model.nodes, out); },
+                 [&](const Tria3& e) {
+                   tria3_matrices(e, shell(e.section), material(e.material), model.nodes, out, directors);
+                 },
                  [&](const PointMass& e) { point_mass_matrices(e, out); },
                  [&](const Spring& e) { spring_matrices(e, out); }},
       element);
@@ -174,7 +178,7 @@ void scatter(const Contribution& contribution, std::span<const int> free, LowerT
 
 /// Elements are computed side by side in chunks; then each thread adds them all, in their order, to columns of its own:
 /// the sums do not depend on the number of threads.
-void add_elements(const Model& model, const DofMap& map, const ElementDofs& elements,
+void add_elements(const Model& model, std::span<const Vec3> directors, const DofMap& map, const ElementDofs& elements,
                   ElementMatrices::Matrix ElementMatrices::*part, LowerTriangle& A, Beside& beside) {
   constexpr std::size_t chunk = 512;
   constexpr int strip = 64;  // columns that go to one thread together
@@ -193,7 +197,7 @@ void add_elements(const Model& model, const DofMap& map, const ElementDofs& elem
       for (std::size_t i = 0; i < count; ++i) {
         const std::size_t e = first + i;
         try {
-          element_matrices(model, model.elements[e], matrices);
+          element_matrices(model, directors, model.elements[e], matrices);
           transform(map, full_dofs(model.elements[e]), elements.of(e), matrices.*part, contributions[i]);
         } catch (...) {
 #pragma omp critical(tenon_element_fault)
@@ -295,10 +299,11 @@ Structure assemble(const Model& model) {
   Structure s;
   s.dofs = eliminate_constraints(model, used_dofs(model));
   const ElementDofs elements = free_dofs(model, s.dofs);
+  const std::vector<Vec3> directors = shell_directors(model);
   Beside beside;
   {
     LowerTriangle K = lower_zeros(elements, s.dofs.n_free());
-    add_elements(model, s.dofs, elements, &ElementMatrices::K, K, beside);
+    add_elements(model, directors, s.dofs, elements, &ElementMatrices::K, K, beside);
     s.K = without_zeros(std::move(K));
   }
   // Mass acts, but for offset points, where stiffness does: it grows in the entries that K has kept. The elements are
@@ -307,7 +312,7 @@ Structure assemble(const Model& model) {
   M.start.assign(s.K.outerIndexPtr(), s.K.outerIndexPtr() + s.K.cols() + 1);
   M.row.assign(s.K.innerIndexPtr(), s.K.innerIndexPtr() + s.K.nonZeros());
   M.value.assign(M.row.size(), 0.0);
-  add_elements(model, s.dofs, elements, &ElementMatrices::M, M, beside);
+  add_elements(model, directors, s.dofs, elements, &ElementMatrices::M, M, beside);
   s.M = without_zeros(std::move(M));
   if (!beside.empty()) {
     SparseMatrix rest(s.K.rows(), s.K.cols());

@@ -3,6 +3,7 @@
 #include "fem/elements/beam.hpp"
 #include "fem/elements/shell.hpp"
 #include "fem/error.hpp"
+#include "fem/shell_directors.hpp"
 #include "fem/structure.hpp"
 
 namespace tenon::fem {
@@ -12,6 +13,7 @@ namespace {
 struct GeometricStiffnessOf {
   const Model& model;
   const Eigen::VectorXd& u;  // of the element's nodes
+  std::span<const Vec3> directors;
   ElementMatrices::Matrix& out;
 
   const Material& material(int i) const { return model.materials[static_cast<std::size_t>(i)]; }
@@ -25,7 +27,7 @@ struct GeometricStiffnessOf {
     quad4_geometric_stiffness(e, shell(e.section), material(e.material), model.nodes, u, out);
   }
   void operator()(const Tria3& e) const {
-    tria3_geometric_stiffness(e, shell(e.section), material(e.material), model.nodes, u, out);
+    tria3_geometric_stiffness(e, shell(e.section), material(e.material), model.nodes, u, out, directors);
   }
   void operator()(const PointMass&) const {}  // bear no stress; have no nodes here
   void operator()(const Spring&) const {}
@@ -53,6 +55,7 @@ SparseMatrix geometric_stiffness(const Model& model, const Structure& structure,
     throw ModelError(fmt::format("{}: matrices alone do not tell the stress in the body", model.source),
                      "Geometric stiffness needs the mesh; leave out what large motion needs (--linear)");
   const Eigen::VectorXd full = map.expand(u);
+  const std::vector<Vec3> directors = shell_directors(model);
   std::vector<Eigen::Triplet<double>> entries;
   ElementMatrices::Matrix K;
   Eigen::VectorXd u_e;
@@ -62,7 +65,7 @@ SparseMatrix geometric_stiffness(const Model& model, const Structure& structure,
     u_e.resize(6 * static_cast<Eigen::Index>(nodes.size()));
     for (std::size_t k = 0; k < nodes.size(); ++k)
       u_e.segment<6>(6 * static_cast<Eigen::Index>(k)) = full.segment<6>(6 * nodes[k]);
-    std::visit(GeometricStiffnessOf{model, u_e, K}, element);
+    std::visit(GeometricStiffnessOf{model, u_e, directors, K}, element);
     // T_eᵀ K_e T_e, term by term
     const auto terms = [&](Eigen::Index i) {
       const auto dof = static_cast<std::size_t>(6 * nodes[static_cast<std::size_t>(i / 6)] + static_cast<int>(i % 6));

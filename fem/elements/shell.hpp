@@ -18,9 +18,11 @@ void quad4_matrices(const Quad4& quad, const ShellSection& section, const Materi
                     std::span<const Vec3> nodes, ElementMatrices& out);
 
 /// The same for three nodes, 18×18: OPT membrane (its drilling rotations are real stiffness), MITC3 shear with edge
-/// rotations. @throws ModelError as above.
+/// rotations. On curved shells the facet's membrane is freed of what bending of the surface gives it (tria3.cpp).
+/// @param directors  of all nodes (`shell_directors`), zero where a node has none; without them the shell is faceted
+/// @throws ModelError as above.
 void tria3_matrices(const Tria3& tria, const ShellSection& section, const Material& material,
-                    std::span<const Vec3> nodes, ElementMatrices& out);
+                    std::span<const Vec3> nodes, ElementMatrices& out, std::span<const Vec3> directors = {});
 
 /// Geometric stiffness (24×24, of a triangle 18×18) of the element's mean membrane stress resultants N [N/m] that the
 /// displacement u causes:
@@ -34,6 +36,6 @@ void quad4_geometric_stiffness(const Quad4& quad, const ShellSection& section, c
                                ElementMatrices::Matrix& out);
 void tria3_geometric_stiffness(const Tria3& tria, const ShellSection& section, const Material& material,
                                std::span<const Vec3> nodes, const Eigen::Ref<const Eigen::VectorXd>& u,
-                               ElementMatrices::Matrix& out);
+                               ElementMatrices::Matrix& out, std::span<const Vec3> directors = {});
 
 }  // namespace tenon::fem

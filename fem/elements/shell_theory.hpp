@@ -110,13 +110,12 @@ void add_in_plane(Square& K, const Gradients& gradients, const Eigen::Matrix2d& 
     }
 }
 
-/// Joins a membrane matrix over (u v θz) and a plate matrix over (w θx θy), with `coupling` between the two if there is
-/// one, and carries them to the basic frame.
+/// A membrane matrix over (u v θz) and a plate matrix over (w θx θy) as one, with `coupling` between the two if there
+/// is one.
 template <int N>
-void shell_to_basic_frame(const Eigen::Matrix<double, 3 * N, 3 * N>& membrane,
-                          const Eigen::Matrix<double, 3 * N, 3 * N>& plate, const Mat3& R,
-                          const std::array<Vec3, N>& arms, ElementMatrices::Matrix& out,
-                          const Eigen::Matrix<double, 3 * N, 3 * N>* coupling = nullptr) {
+Eigen::Matrix<double, 6 * N, 6 * N> join_shell(const Eigen::Matrix<double, 3 * N, 3 * N>& membrane,
+                                               const Eigen::Matrix<double, 3 * N, 3 * N>& plate,
+                                               const Eigen::Matrix<double, 3 * N, 3 * N>* coupling = nullptr) {
   static constexpr std::array<int, 3> in_plane{0, 1, 5}, across{2, 3, 4};
   Eigen::Matrix<double, 6 * N, 6 * N> local = Eigen::Matrix<double, 6 * N, 6 * N>::Zero();
   for (int j = 0; j < N; ++j)
@@ -130,7 +129,16 @@ void shell_to_basic_frame(const Eigen::Matrix<double, 3 * N, 3 * N>& membrane,
             local(6 * j + across[kb], 6 * i + in_plane[ka]) = local(6 * i + in_plane[ka], 6 * j + across[kb]) =
                 (*coupling)(3 * i + a, 3 * j + b);
         }
-  to_basic_frame<N>(local, R, arms, out);
+  return local;
+}
+
+/// The same carried to the basic frame.
+template <int N>
+void shell_to_basic_frame(const Eigen::Matrix<double, 3 * N, 3 * N>& membrane,
+                          const Eigen::Matrix<double, 3 * N, 3 * N>& plate, const Mat3& R,
+                          const std::array<Vec3, N>& arms, ElementMatrices::Matrix& out,
+                          const Eigen::Matrix<double, 3 * N, 3 * N>* coupling = nullptr) {
+  to_basic_frame<N>(join_shell<N>(membrane, plate, coupling), R, arms, out);
 }
 
 }  // namespace tenon::fem

@@ -12,6 +12,17 @@
 // L lumps a constant stress to node forces and moments (α_b = 3/2), T takes the node displacements to the hierarchical
 // rotations, K_θ is the energy of three linear natural-strain fields. Bending of a rectangle cut into two triangles is
 // exact for any aspect ratio. The rotations are real stiffness, so no drilling term is needed.
+// Curved shells. Bending without membrane strain turns the surface by a field θ whose gradient is tangential,
+// n·∂θ = 0, and moves it by u_j − u_i = ∫ θ × dx along the surface. With θ and the normals' tilt m, their part in the
+// facet, both linear in it, â = a − ā what a differs from its mean by, an edge of length l and tangent t, q = n × t:
+//
+//   θz_i = θz₀ − ½ θ̂_i·(m_i + m̄)                                                                                    (2)
+//   (u_j − u_i)·t / l = −(1/12) (m_j − m_i)·t  ((θ_j − θ_i) × n)·t, (3) (u_j − u_i)·q / l = mean of θz along the edge −
+//   (1/12) (m_j − m_i)·t  ((θ_j − θ_i) × n)·q                         (4)
+//
+// The flat membrane takes these θz and edges for strain: thin shells lock, (1) by θz above all (the hemisphere of
+// t/R = 4e-4, 16 × 16, to a hundredth of its deflection). Subtracted from what it is given, they leave it nothing.
+// Rigid motions have θ_j = θ_i and flat shells m = 0: both stay as they are.
 // Plate: shell_theory.hpp. Everything integrated is quadratic: three points are exact, but for the square of the linked
 // deflection (fourth-order effect).
 namespace tenon::fem {
@@ -43,6 +54,56 @@ FlatTria flatten(const Tria3& tria, std::span<const Vec3> nodes) {
   f.y << 0.0, 0.0, f.R.col(1).dot(e13);
   f.A = 0.5 * normal.norm();
   return f;
+}
+
+/// What (2)–(4) add to (u v θz), from (θx θy) of the nodes; false for a flat facet, or where a node has no director.
+bool curvature_terms(const Tria3& tria, std::span<const Vec3> directors, const FlatTria& f,
+                     Eigen::Matrix<double, 9, 6>& E) {
+  if (directors.empty()) return false;
+  using Vec2 = Eigen::Vector2d;
+  using Row = Eigen::Matrix<double, 1, 6>;
+  std::array<Vec2, 3> m;
+  double tilt = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3 n = f.R.transpose() * directors[static_cast<std::size_t>(tria.nodes[i])];
+    if (!(std::abs(n.z()) > 0.5)) return false;
+    m[i] = n.head<2>() / n.z();
+    tilt = std::max(tilt, m[i].norm());
+  }
+  if (!(tilt > 1e-9)) return false;
+  const Vec2 mean = (m[0] + m[1] + m[2]) / 3.0;
+  std::array<Eigen::Matrix<double, 2, 6>, 3> theta;  // θ̂_i
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      theta[static_cast<std::size_t>(i)].block<2, 2>(0, 2 * j) =
+          ((i == j ? 1.0 : 0.0) - 1.0 / 3.0) * Eigen::Matrix2d::Identity();
+
+  std::array<Vec2, 3> t;
+  Mat3 natural;                        // rows: edge strain = (c², s², cs) · ε
+  Eigen::Matrix<double, 3, 6> strain;  // (3)
+  Row omega = Row::Zero();             // (4), the mean of the edges
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    const auto a = static_cast<Eigen::Index>(i), b = static_cast<Eigen::Index>(j);
+    t[i] = Vec2(f.x[b] - f.x[a], f.y[b] - f.y[a]).normalized();
+    natural.row(a) << t[i].x() * t[i].x(), t[i].y() * t[i].y(), t[i].x() * t[i].y();
+    const Vec2 bend = (m[j] - m[i]).dot(t[i]) / 12.0 * t[i];  // (θ × n)·q = −θ·t
+    const Eigen::Matrix<double, 2, 6> turn = theta[j] - theta[i];
+    strain.row(a) = bend.x() * turn.row(1) - bend.y() * turn.row(0);
+    omega += (m[i] - mean).transpose().lazyProduct(theta[i]) / 12.0 - bend.transpose().lazyProduct(turn) / 3.0;
+  }
+  const Eigen::Matrix<double, 3, 6> epsilon = natural.inverse().lazyProduct(strain);
+  for (const Vec2& e : t)
+    omega -=
+        (e.x() * e.y() * (epsilon.row(1) - epsilon.row(0)) + 0.5 * (e.x() * e.x() - e.y() * e.y()) * epsilon.row(2)) /
+        3.0;
+  for (int i = 0; i < 3; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    E.row(3 * i) = f.x[i] * epsilon.row(0) + f.y[i] * (0.5 * epsilon.row(2) - omega);
+    E.row(3 * i + 1) = f.y[i] * epsilon.row(1) + f.x[i] * (0.5 * epsilon.row(2) + omega);
+    E.row(3 * i + 2) = 0.5 * (m[k] + mean).transpose().lazyProduct(theta[k]);
+  }
+  return true;
 }
 
 /// Node forces and moments of unit membrane stress over unit thickness, over (u v θz): α_b = 3/2. Lᵀu/A is the mean
@@ -156,7 +217,7 @@ void plate(const ShellTheory& theory, const FlatTria& f, Mat9& K, Mat9& M, Eigen
 }  // namespace
 
 void tria3_matrices(const Tria3& tria, const ShellSection& section, const Material& material,
-                    std::span<const Vec3> nodes, ElementMatrices& out) {
+                    std::span<const Vec3> nodes, ElementMatrices& out, std::span<const Vec3> directors) {
   const FlatTria flat = flatten(tria, nodes);
   const ShellTheory theory =
       shell_theory(section, material, tria.material_axis, flat.R.col(0), flat.R, "triangle", tria.id);
@@ -172,29 +233,43 @@ void tria3_matrices(const Tria3& tria, const ShellSection& section, const Materi
     K_coupling = Eigen::Matrix<double, 9, 3>(lumping(flat).lazyProduct(theory.coupling)).lazyProduct(kappa.transpose());
   std::array<Vec3, 3> arms;
   arms.fill(Vec3(0.0, 0.0, tria.offset));
-  shell_to_basic_frame<3>(K_membrane, K_plate, flat.R, arms, out.K, theory.coupled ? &K_coupling : nullptr);
+  Eigen::Matrix<double, 18, 18> K = join_shell<3>(K_membrane, K_plate, theory.coupled ? &K_coupling : nullptr);
+  if (Eigen::Matrix<double, 9, 6> E; curvature_terms(tria, directors, flat, E)) {
+    Eigen::Matrix<double, 18, 18> T = Eigen::Matrix<double, 18, 18>::Identity();
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) {
+        T.block<2, 2>(6 * i, 6 * j + 3) = E.block<2, 2>(3 * i, 2 * j);
+        T.block<1, 2>(6 * i + 5, 6 * j + 3) += E.block<1, 2>(3 * i + 2, 2 * j);
+      }
+    const Eigen::Matrix<double, 18, 18> KT = K.lazyProduct(T);
+    K = T.transpose().lazyProduct(KT);
+  }
+  to_basic_frame<3>(K, flat.R, arms, out.K);
   arms.fill(Vec3(0.0, 0.0, tria.offset + theory.mass_height));
   shell_to_basic_frame<3>(M_membrane, M_plate, flat.R, arms, out.M);
 }
 
 void tria3_geometric_stiffness(const Tria3& tria, const ShellSection& section, const Material& material,
                                std::span<const Vec3> nodes, const Eigen::Ref<const Eigen::VectorXd>& u,
-                               ElementMatrices::Matrix& out) {
+                               ElementMatrices::Matrix& out, std::span<const Vec3> directors) {
   const FlatTria flat = flatten(tria, nodes);
   const ShellTheory theory =
       shell_theory(section, material, tria.material_axis, flat.R.col(0), flat.R, "triangle", tria.id);
   refuse_stress(theory, tria.offset, section.name, "triangle", tria.id);
   Column9 in_plane;
+  Eigen::Matrix<double, 6, 1> across;  // θx θy
   Vec3 N_x, N_y;
   std::array<PlateEdge, 3> edge;
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3, k = (i + 2) % 3;
     const Vec3 local = flat.R.transpose() * u.segment<3>(6 * i), turn = flat.R.transpose() * u.segment<3>(6 * i + 3);
     in_plane.segment<3>(3 * i) << local.x(), local.y(), turn.z();
+    across.segment<2>(2 * i) = turn.head<2>();
     N_x[i] = (flat.y[j] - flat.y[k]) / (2.0 * flat.A);
     N_y[i] = (flat.x[k] - flat.x[j]) / (2.0 * flat.A);
     edge[static_cast<std::size_t>(i)] = plate_edge(theory, flat.x[j] - flat.x[i], flat.y[j] - flat.y[i]);
   }
+  if (Eigen::Matrix<double, 9, 6> E; curvature_terms(tria, directors, flat, E)) in_plane += E * across;
   const Eigen::Matrix2d N = flat.A / 3.0 * stress_resultants(theory, lumping(flat).transpose() * in_plane / flat.A);
   Mat9 K_membrane = Mat9::Zero(), K_plate = Mat9::Zero();
   for (int g = 0; g < 3; ++g) {
