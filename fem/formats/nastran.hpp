@@ -43,14 +43,18 @@ struct NastranDeck {
 ///
 /// Mass. With PARAM,COUPMASS > 0 beams get BeamMass::nastran and shells their consistent mass. Without it Nastran
 /// lumps: elements then refer to copies of their material and section without mass, and PointMass elements carry it at
-/// the nodes (a bar half and half at its two ends, a shell ∫N_i ρt dA), one a node but for the ends of bars with offsets.
+/// the nodes (a bar half and half at its two ends, a shell ∫N_i ρt dA), one a node but for the ends of bars with
+/// offsets.
 ///
 /// Pin flags of CBAR become Beam::releases, in the element's axes. With COUPMASS they are refused: what mass Nastran
 /// gives such a bar is not settled.
 ///
 /// Sections. I1 bends in plane 1 (x–y) and becomes Iz, I2 becomes Iy; a blank K1 or K2 means rigid in shear (kappa 0).
 /// PSHELL: blank MID2 gives bending_ratio 0; blank MID3 means rigid in shear, taken as shear_ratio 1000; MID2 and MID3
-/// that differ from MID1 scale the two ratios.
+/// that differ from MID1 scale the two ratios. MID1 of a MAT8 or MAT2 makes a single ply in the axes of THETA or MCID,
+/// its transverse shear that of MID3.
+///
+/// Shells. CQUADR and CTRIAR are read as CQUAD4 and CTRIA3, CQUAD8 and CTRIA6 split into four of these.
 ///
 /// PCOMP: plies of MAT8 or MAT1 in the axes of THETA or MCID, Z0 and ZOFFS become the element's offset; LAM blank or
 /// SYM.

@@ -1,37 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "fem/formats/nastran/properties.hpp"
 
 namespace tenon::fem::nastran {
 namespace {
-
-/// MAT8: E1 E2 NU12 G12 G1Z G2Z RHO; G1Z and G2Z blank or zero stand for rigid.
-std::unordered_map<long, Ply> orthotropic_materials(Draft& draft) {
-  std::unordered_map<long, Ply> index;
-  Register known("MAT8");
-  for (const Card& card : draft.take("MAT8")) {
-    const long id = card.id(1, "MID");
-    if (!known.admit(id, card, draft.losses)) continue;
-    Ply ply;
-    ply.E1 = card.positive(2, "E1");
-    ply.E2 = card.positive(3, "E2");
-    ply.nu12 = card.real(4, "NU12");
-    ply.G12 = card.positive(5, "G12");
-    ply.G13 = card.non_negative(6, "G1Z", 0.0);
-    ply.G23 = card.non_negative(7, "G2Z", 0.0);
-    ply.rho = card.non_negative(8, "RHO", 0.0);
-    if (!(ply.nu12 * ply.nu12 * ply.E2 < ply.E1))
-      card.fail(4, "NU12", fmt::format("a number below √(E1/E2) = {:.4g} in size", std::sqrt(ply.E1 / ply.E2)));
-    if ((ply.G13 == 0.0) != (ply.G23 == 0.0))
-      card.fail(ply.G13 == 0.0 ? 6 : 7, ply.G13 == 0.0 ? "G1Z" : "G2Z", "a number above zero, as its neighbour has");
-    index.emplace(id, ply);
-  }
-  return index;
-}
 
 Ply isotropic(const Material& m) {
   return {.E1 = m.E, .E2 = m.E, .nu12 = m.nu, .G12 = m.G, .G13 = m.G, .G23 = m.G, .rho = m.rho};
@@ -47,8 +22,8 @@ bool symmetric(const Card& card) {
 
 }  // namespace
 
-void read_composites(Draft& draft, const MaterialIndex& materials, Properties& properties) {
-  const std::unordered_map<long, Ply> orthotropic = orthotropic_materials(draft);
+void read_composites(Draft& draft, const MaterialIndex& materials, const Orthotropic& orthotropic,
+                     Properties& properties) {
   Model& model = draft.deck.model;
   Register known("PCOMP");
   for (const Card& card : draft.take("PCOMP")) {
@@ -68,7 +43,7 @@ void read_composites(Draft& draft, const MaterialIndex& materials, Properties& p
       if (!card.blank(field) || material == 0) material = card.id(field, "MIDi");
       if (!card.blank(field + 1) || thickness == 0.0) thickness = card.positive(field + 1, "Ti");
       Ply ply;
-      if (const auto found = orthotropic.find(material); found != orthotropic.end())
+      if (const auto found = orthotropic.mat8.find(material); found != orthotropic.mat8.end())
         ply = found->second;
       else if (const auto mat1 = materials.find(material); mat1 != materials.end())
         ply = isotropic(model.materials[static_cast<std::size_t>(mat1->second)]);
@@ -85,10 +60,7 @@ void read_composites(Draft& draft, const MaterialIndex& materials, Properties& p
       for (std::size_t k = s.plies.size(); k-- > 0;) s.plies.push_back(Ply(s.plies[k]));
     for (const Ply& ply : s.plies) s.thickness += ply.thickness;
     const double offset = card.blank(2) ? 0.0 : card.real(2, "Z0") + 0.5 * s.thickness;
-    properties.shells.emplace(
-        id, Property{static_cast<int>(model.shell_sections.size()), static_cast<int>(model.materials.size()), offset});
-    model.materials.push_back({.name = s.name});  // elements name one; plies have their own
-    model.shell_sections.push_back(std::move(s));
+    properties.add_laminate(id, std::move(s), offset, model);
   }
 }
 

@@ -173,7 +173,7 @@ void sort_cards(const Text& text, Draft& draft);
 // The steps, in the order of their calls.
 void read_grids(Draft& draft);          ///< GRDSET, CORDij, GRID
 void read_scalar_points(Draft& draft);  ///< SPOINT, QSET
-void read_elements(Draft& draft);       ///< MAT1, MAT8, PBAR, PSHELL, PCOMP, BAROR, CBAR, CQUAD4, CTRIA3, CONM2
+void read_elements(Draft& draft);       ///< MAT1/2/8, PBAR, PSHELL, PCOMP, BAROR, CBAR, shells, CONM2
 void lump_masses(Draft& draft);         ///< without PARAM,COUPMASS
 void read_links(Draft& draft);          ///< RBE2, RBE3
 void read_boundary(Draft& draft);       ///< ASET, ASET1, BSET, BSET1

@@ -1,20 +1,23 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "fem/formats/nastran/properties.hpp"
 
 namespace tenon::fem::nastran {
 namespace {
 
-constexpr std::array<CellType, 4> block_types{CellType::line, CellType::quad, CellType::triangle, CellType::vertex};
+constexpr std::array<CellType, 6> block_types{CellType::line,   CellType::quad,  CellType::triangle,
+                                              CellType::vertex, CellType::quad8, CellType::triangle6};
 
 /// The mesh's blocks while they grow, one a cell type, with their sets.
 struct Cells {
-  std::array<CellBlock, 4> blocks;
-  std::map<std::string, std::array<std::vector<int>, 4>> sets;
+  std::array<CellBlock, block_types.size()> blocks;
+  std::map<std::string, std::array<std::vector<int>, block_types.size()>> sets;
 
   template <class Nodes>
   void add(std::size_t block, const Nodes& nodes, long id, const std::string& set) {
@@ -49,8 +52,11 @@ struct ElementReader {
   std::string offset_codes(const Card& card) const;
   Vec3 offset(const Card& card, int first, const char* label, char code, int node) const;
   Vec3 material_axis(const Card& card, int field, const Vec3& a, const Vec3& b, const Vec3& normal) const;
+  void corner_thickness(const Card& card, int tflag, int first, int n, double thickness) const;
   template <class Shell>
   void shell(const Card& card, std::size_t block);
+  template <int n>
+  void second_order_shell(const Card& card);
   void point_mass(const Card& card);
 };
 
@@ -133,6 +139,15 @@ Vec3 ElementReader::material_axis(const Card& card, int field, const Vec3& a, co
   return std::cos(theta) * x + std::sin(theta) * n.cross(x);
 }
 
+/// TFLAG, and T1.. from field `first`: Nastran's shells may differ in thickness at their corners, ours do not.
+void ElementReader::corner_thickness(const Card& card, int tflag, int first, int n, double thickness) const {
+  const double unit = card.integer(tflag, "TFLAG", 0) == 1 ? thickness : 1.0;
+  for (int i = first; i < first + n; ++i)
+    if (!card.blank(i) && std::abs(card.real(i, "T") * unit - thickness) > 1e-6 * thickness)
+      draft.losses.add_physical(card.name() + " T1..T4", "thickness at the corners that differs from PSHELL's",
+                                card.place(i));
+}
+
 template <class Shell>
 void ElementReader::shell(const Card& card, std::size_t block) {
   constexpr std::array<const char*, 4> labels{"G1", "G2", "G3", "G4"};
@@ -155,11 +170,7 @@ void ElementReader::shell(const Card& card, std::size_t block) {
   const auto& section = draft.deck.model.shell_sections[static_cast<std::size_t>(shell.section)];
   // behind the corners: THETA, ZOFFS; on the second line TFLAG and T1..
   shell.offset = card.real(4 + n, "ZOFFS", 0.0) + property.offset;
-  const double unit = card.integer(10, "TFLAG", 0) == 1 ? section.thickness : 1.0;
-  for (int i = 11; i < 11 + n; ++i)
-    if (!card.blank(i) && std::abs(card.real(i, "T") * unit - section.thickness) > 1e-6 * section.thickness)
-      draft.losses.add_physical(card.name() + " T1..T4", "thickness at the corners that differs from PSHELL's",
-                                card.place(i));
+  corner_thickness(card, 10, 11, n, section.thickness);
   const Vec3 p = at(shell.nodes[0]), diagonal = at(shell.nodes[2]) - p;
   const Vec3 other = at(shell.nodes.back()) - (n == 4 ? at(shell.nodes[1]) : p);
   const double size = diagonal.norm() + other.norm() + 1e-4 * p.norm();
@@ -170,6 +181,60 @@ void ElementReader::shell(const Card& card, std::size_t block) {
     shell.material_axis = material_axis(card, 3 + n, p, at(shell.nodes[1]), diagonal.cross(other));
   cells.add(block, shell.nodes, shell.id, section.name);
   draft.deck.model.elements.emplace_back(shell);
+}
+
+/// The elements that n corners, then n middles of their sides, then a quadrilateral's centre become.
+constexpr std::array<std::array<std::size_t, 4>, 4> quads_of_8{
+    {{0, 4, 8, 7}, {4, 1, 5, 8}, {8, 5, 2, 6}, {7, 8, 6, 3}}};
+constexpr std::array<std::array<std::size_t, 3>, 4> triangles_of_6{{{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}}};
+
+// CQUAD8 (n = 4): G1..G8, T1..T4, THETA, ZOFFS, TFLAG; CTRIA6 (3): G1..G6, THETA, ZOFFS, T1..T3, TFLAG
+template <int n>
+void ElementReader::second_order_shell(const Card& card) {
+  constexpr std::array<const char*, 8> labels{"G1", "G2", "G3", "G4", "G5", "G6", "G7", "G8"};
+  constexpr int theta = n == 4 ? 15 : 9, thickness = 11, tflag = thickness + n + (n == 4 ? 2 : 0);
+  const long id = card.id(1, "EID");
+  if (!known.admit(id, card, draft.losses)) return;
+  const Property& property = Properties::find(properties.shells, "PSHELL or PCOMP", card, 2);
+  std::array<int, 2 * n + 1> nodes{};
+  for (int i = 0; i < 2 * n; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    if (i >= n && card.blank(3 + i))
+      card.fail(3 + i, labels[k],
+                fmt::format("the grid in the middle of a side: write an element without them as {}",
+                            n == 4 ? "CQUAD4" : "CTRIA3"));
+    nodes[k] = draft.node(card, 3 + i, labels[k]);
+    if (std::find(nodes.begin(), nodes.begin() + i, nodes[k]) != nodes.begin() + i)
+      card.refuse(3 + i, fmt::format("{} names GRID {} twice", id, card.at(3 + i)),
+                  "Give every place a grid of its own");
+    carry(nodes[k]);
+  }
+  const auto& section = draft.deck.model.shell_sections[static_cast<std::size_t>(property.section)];
+  corner_thickness(card, tflag, thickness, n, section.thickness);
+  cells.add(n == 4 ? 4 : 5, std::span(nodes).first(2 * n), id, section.name);
+
+  const Vec3 p = at(nodes[0]), other = at(nodes[n - 1]) - (n == 4 ? at(nodes[1]) : p);
+  const Vec3 normal = (at(nodes[n == 4 ? 2 : 1]) - p).cross(other);
+  if (normal.isZero(0.0)) card.refuse(3, fmt::format("{} has no area", id), "Correct its grids");
+  const double offset = card.real(theta + 1, "ZOFFS", 0.0) + property.offset;
+  Vec3 axis = Vec3::Zero();
+  if (!section.plies.empty())
+    axis = card.blank(theta) ? Vec3(at(nodes[1]) - p) : material_axis(card, theta, p, at(nodes[1]), normal);
+  if constexpr (n == 4) {  // the serendipity functions' centre, ½ Σ middles − ¼ Σ corners
+    Vec3 centre = Vec3::Zero();
+    for (std::size_t i = 0; i < 8; ++i) centre += (i < 4 ? -0.25 : 0.5) * at(nodes[i]);
+    nodes[8] = draft.make_node(centre, -id);
+    carry(nodes[8]);
+    draft.losses.add(card.name(), "split into four quadrilaterals of four nodes, with a node made in the middle");
+    for (const auto& q : quads_of_8)
+      draft.deck.model.elements.emplace_back(Quad4{
+          {nodes[q[0]], nodes[q[1]], nodes[q[2]], nodes[q[3]]}, property.section, property.material, id, offset, axis});
+  } else {
+    draft.losses.add(card.name(), "split into four triangles of three nodes");
+    for (const auto& t : triangles_of_6)
+      draft.deck.model.elements.emplace_back(
+          Tria3{{nodes[t[0]], nodes[t[1]], nodes[t[2]]}, property.section, property.material, id, offset, axis});
+  }
 }
 
 // mass M at G + X, inertia I about the centre of mass, both in CID; off-diagonal terms of the tensor are −I21, −I31,
@@ -205,12 +270,16 @@ void read_elements(Draft& draft) {
     reader.bar_defaults = card;
   }
   std::size_t count = draft.deck.model.elements.size();
-  for (const char* name : {"CBAR", "CQUAD4", "CTRIA3", "CONM2"})
+  for (const char* name : {"CBAR", "CQUAD4", "CQUADR", "CTRIA3", "CTRIAR", "CONM2"})
     if (const auto found = draft.cards.find(name); found != draft.cards.end()) count += found->second.size();
   draft.deck.model.elements.reserve(count);
   for (const Card& card : draft.take("CBAR")) reader.bar(card);
   for (const Card& card : draft.take("CQUAD4")) reader.shell<Quad4>(card, 1);
   for (const Card& card : draft.take("CTRIA3")) reader.shell<Tria3>(card, 2);
+  for (const Card& card : draft.take("CQUADR")) reader.shell<Quad4>(card, 1);
+  for (const Card& card : draft.take("CTRIAR")) reader.shell<Tria3>(card, 2);
+  for (const Card& card : draft.take("CQUAD8")) reader.second_order_shell<4>(card);
+  for (const Card& card : draft.take("CTRIA6")) reader.second_order_shell<3>(card);
   for (const Card& card : draft.take("CONM2")) reader.point_mass(card);
   reader.cells.finish(draft.deck.mesh);
 }

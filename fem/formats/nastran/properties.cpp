@@ -81,12 +81,27 @@ void read_bars(Draft& draft, const MaterialIndex& materials, Properties& propert
   }
 }
 
-void read_shells(Draft& draft, const MaterialIndex& materials, Properties& properties) {
+/// MID4 other than MID1 would couple membrane and bending.
+void refuse_coupling(Draft& draft, const Card& card) {
+  if (!card.blank(11) && card.id(11, "MID4") != card.id(2, "MID1"))
+    draft.losses.add_physical("PSHELL MID4", "coupling of membrane and bending", card.place(11));
+}
+
+void read_shells(Draft& draft, const MaterialIndex& materials, const Orthotropic& orthotropic, Properties& properties) {
   Register known("PSHELL");
   for (const Card& card : draft.take("PSHELL")) {
     const long id = card.id(1, "PID");
     if (!known.admit(id, card, draft.losses)) continue;
     if (card.blank(2)) card.fail(2, "MID1", "a material: a shell without membrane stiffness is not read");
+    if (orthotropic.contains(card.id(2, "MID1"))) {
+      ShellSection s{.name = fmt::format("pshell {}", id)};
+      s.plies.push_back(single_ply(card, orthotropic, materials, draft.deck.model));
+      s.thickness = s.plies[0].thickness;
+      s.nsm = card.real(8, "NSM", 0.0);
+      refuse_coupling(draft, card);
+      properties.add_laminate(id, std::move(s), 0.0, draft.deck.model);
+      continue;
+    }
     const int membrane = material(materials, card, 2, "MID1");
     const auto& all = draft.deck.model.materials;
     const auto get = [&](int field, const char* label) -> const Material& {
@@ -110,8 +125,7 @@ void read_shells(Draft& draft, const MaterialIndex& materials, Properties& prope
     }
     if (!std::isfinite(s.bending_ratio) || !std::isfinite(s.shear_ratio))
       card.fail(2, "MID1", "a material with E and G above zero");
-    if (!card.blank(11) && card.id(11, "MID4") != card.id(2, "MID1"))
-      draft.losses.add_physical("PSHELL MID4", "coupling of membrane and bending", card.place(11));
+    refuse_coupling(draft, card);
     properties.shells.emplace(id, Property{static_cast<int>(draft.deck.model.shell_sections.size()), membrane});
     draft.deck.model.shell_sections.push_back(s);
   }
@@ -129,12 +143,20 @@ const Property& Properties::find(const std::unordered_map<long, Property>& prope
   return found->second;
 }
 
+void Properties::add_laminate(long id, ShellSection section, double offset, Model& model) {
+  shells.emplace(
+      id, Property{static_cast<int>(model.shell_sections.size()), static_cast<int>(model.materials.size()), offset});
+  model.materials.push_back({.name = section.name});
+  model.shell_sections.push_back(std::move(section));
+}
+
 Properties read_properties(Draft& draft) {
   Properties properties;
   const MaterialIndex materials = read_materials(draft);
   read_bars(draft, materials, properties);
-  read_shells(draft, materials, properties);
-  read_composites(draft, materials, properties);
+  const Orthotropic orthotropic = read_orthotropic(draft);
+  read_shells(draft, materials, orthotropic, properties);
+  read_composites(draft, materials, orthotropic, properties);
   return properties;
 }
 

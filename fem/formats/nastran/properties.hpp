@@ -5,7 +5,7 @@
 
 #include "fem/formats/nastran/draft.hpp"
 
-/// Materials and sections of a deck: MAT1, MAT8, PBAR, PSHELL, PCOMP.
+/// Materials and sections of a deck: MAT1, MAT2, MAT8, PBAR, PSHELL, PCOMP.
 namespace tenon::fem::nastran {
 
 /// What an element's property number leads to: indices into the model.
@@ -17,16 +17,40 @@ struct Property {
 
 using MaterialIndex = std::unordered_map<long, int>;  ///< MAT1 by MID
 
+/// MAT2: σ = G ε in the plane as MID1 and MID2, [G11 G12; G12 G22] the transverse shear as MID3.
+struct Anisotropic {
+  Mat3 G;
+  double rho = 0.0;
+};
+
+/// Materials with directions, by MID.
+struct Orthotropic {
+  std::unordered_map<long, Ply> mat8;
+  std::unordered_map<long, Anisotropic> mat2;
+
+  bool contains(long id) const { return mat8.contains(id) || mat2.contains(id); }
+};
+
+Orthotropic read_orthotropic(Draft& draft);
+
+/// The single ply of a PSHELL whose MID1 is a MAT8 or MAT2: MID2 the same, MID3 blank (rigid in transverse shear), a
+/// MAT1, MAT8 or MAT2 with TS/T. Refuses other bending and what couples shear and extension in the ply's axes.
+Ply single_ply(const Card& card, const Orthotropic& orthotropic, const MaterialIndex& materials, const Model& model);
+
 struct Properties {
   std::unordered_map<long, Property> bars, shells;  ///< PBAR, PSHELL and PCOMP by PID
 
   /// The property an element names; throws InputError at the field.
   static const Property& find(const std::unordered_map<long, Property>& properties, const char* kind, const Card& card,
                               int field);
+
+  /// A section of plies, with a material for the elements to name; the plies have their own.
+  void add_laminate(long id, ShellSection section, double offset, Model& model);
 };
 
-/// MAT8 and PCOMP: plies from bottom to top, each in the axes that THETA of the element and of the ply give.
-void read_composites(Draft& draft, const MaterialIndex& materials, Properties& properties);
+/// PCOMP: plies from bottom to top, each in the axes that THETA of the element and of the ply give.
+void read_composites(Draft& draft, const MaterialIndex& materials, const Orthotropic& orthotropic,
+                     Properties& properties);
 
 /// Appends materials and sections to the draft's model.
 Properties read_properties(Draft& draft);
