@@ -102,8 +102,10 @@ fem::Model read_deck(const FeSource& fe, fem::Mesh& mesh) {
   mesh = std::move(deck.mesh);
   fem::Model model = to_si(std::move(deck.model), fe.units);
   if (fe.beam_mass)
-    for (fem::Element& element : model.elements)
+    for (fem::Element& element : model.elements) {
       if (auto* beam = std::get_if<fem::Beam>(&element)) beam->mass = *fe.beam_mass;
+      if (auto* rod = std::get_if<fem::Rod>(&element)) rod->mass = *fe.beam_mass;
+    }
   return model;
 }
 

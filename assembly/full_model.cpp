@@ -50,6 +50,31 @@ void move(fem::Tria3& e, const Move& m) {
   e.material += m.material;
 }
 
+void move(fem::Rod& e, const Move& m) {
+  for (int& node : e.nodes) node += m.node;
+  e.section += m.beam_section;
+  e.material += m.material;
+}
+
+void move(fem::Bush& e, const Move& m) {
+  e.node_a += m.node;
+  if (e.node_b >= 0) e.node_b += m.node;
+  e.axes = m.R * e.axes;
+  e.offset = m.R * e.offset;
+}
+
+/// Scalar points keep their one direction.
+void move(fem::Spring& e, const Move& m, const std::vector<char>& scalar) {
+  const auto turn = [&](int node, int dof, Vec3& axis) {
+    if (node < 0 || scalar[static_cast<std::size_t>(node)] != 0 || m.R.isIdentity(0.0)) return;
+    axis = m.R * (axis == Vec3::Zero() ? Vec3(Vec3::Unit(dof % 3)) : axis);
+  };
+  turn(e.node_a, e.dof_a, e.axis_a);
+  turn(e.node_b, e.dof_b, e.axis_b);
+  e.node_a += m.node;
+  if (e.node_b >= 0) e.node_b += m.node;
+}
+
 void move(fem::PointMass& e, const Move& m) {
   e.node += m.node;
   e.offset = m.R * e.offset;
@@ -113,21 +138,12 @@ int append(Model& whole, const Model& part, const Mat3& R, const Vec3& origin) {
   whole.beam_sections.insert(whole.beam_sections.end(), part.beam_sections.begin(), part.beam_sections.end());
   whole.shell_sections.insert(whole.shell_sections.end(), part.shell_sections.begin(), part.shell_sections.end());
   for (fem::Element element : part.elements) {
-    if (const auto* spring = std::get_if<fem::Spring>(&element)) {
-      if (!R.isIdentity(0.0) && scalar[static_cast<std::size_t>(spring->node_a)] == 0)
-        throw ModelError(
-            fmt::format("{}: spring {} acts on one direction of a node and the body is turned in the scene",
-                        part.source, spring->id),
-            "Let the body keep the axes of its mesh, or model the spring as a joint of the scene");
-      fem::Spring copy = *spring;
-      copy.node_a += m.node;
-      if (copy.node_b >= 0) copy.node_b += m.node;
-      whole.elements.emplace_back(copy);
-      continue;
-    }
     std::visit(
         [&](auto& e) {
-          if constexpr (!std::is_same_v<std::decay_t<decltype(e)>, fem::Spring>) move(e, m);
+          if constexpr (std::is_same_v<std::decay_t<decltype(e)>, fem::Spring>)
+            move(e, m, scalar);
+          else
+            move(e, m);
         },
         element);
     whole.elements.push_back(element);

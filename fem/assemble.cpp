@@ -7,10 +7,13 @@
 
 #include "fem/constraints.hpp"
 #include "fem/elements/beam.hpp"
+#include "fem/elements/bush.hpp"
 #include "fem/elements/point_mass.hpp"
+#include "fem/elements/rod.hpp"
 #include "fem/elements/shell.hpp"
 #include "fem/elements/spring.hpp"
 #include "fem/error.hpp"
+#include "fem/loose_rotations.hpp"
 #include "fem/matrix_part.hpp"
 #include "fem/shell_directors.hpp"
 #include "fem/sparsity.hpp"
@@ -32,14 +35,24 @@ struct FullDofs {
   void add_node(int node) {
     for (int d = 0; d < 6; ++d) dof[static_cast<std::size_t>(size++)] = 6 * node + d;
   }
+  /// One dof, or the three of its kind when `axis` is given.
+  void add_end(int node, int direction, const Vec3& axis) {
+    const bool skew = axis != Vec3::Zero();
+    const int first = skew ? direction / 3 * 3 : direction;
+    for (int d = first; d < first + (skew ? 3 : 1); ++d) dof[static_cast<std::size_t>(size++)] = 6 * node + d;
+  }
 };
 
 FullDofs full_dofs(const Element& element) {
   FullDofs dofs;
   std::visit(Overloaded{[&](const PointMass& e) { dofs.add_node(e.node); },
                         [&](const Spring& e) {
-                          dofs.dof[static_cast<std::size_t>(dofs.size++)] = 6 * e.node_a + e.dof_a;
-                          if (e.node_b >= 0) dofs.dof[static_cast<std::size_t>(dofs.size++)] = 6 * e.node_b + e.dof_b;
+                          dofs.add_end(e.node_a, e.dof_a, e.axis_a);
+                          if (e.node_b >= 0) dofs.add_end(e.node_b, e.dof_b, e.axis_b);
+                        },
+                        [&](const Bush& e) {
+                          dofs.add_node(e.node_a);
+                          if (e.node_b >= 0) dofs.add_node(e.node_b);
                         },
                         [&](const auto& e) {
                           for (const int node : e.nodes) dofs.add_node(node);
@@ -62,7 +75,12 @@ void element_matrices(const Model& model, std::span<const Vec3> directors, const
                    tria3_matrices(e, shell(e.section), material(e.material), model.nodes, out, directors);
                  },
                  [&](const PointMass& e) { point_mass_matrices(e, out); },
-                 [&](const Spring& e) { spring_matrices(e, out); }},
+                 [&](const Spring& e) { spring_matrices(e, out); },
+                 [&](const Rod& e) {
+                   rod_matrices(e, model.beam_sections[static_cast<std::size_t>(e.section)], material(e.material),
+                                model.nodes, out);
+                 },
+                 [&](const Bush& e) { bush_matrices(e, model.nodes, out); }},
       element);
 }
 
@@ -289,6 +307,15 @@ void require_complete_ports(const Model& model, const Structure& s) {
   }
 }
 
+/// Constraints eliminated, those of rotations that nothing holds or moves among them.
+DofMap dof_map(const Model& model) {
+  const std::vector<LinearConstraint> loose = loose_rotations(model);
+  if (loose.empty()) return eliminate_constraints(model, used_dofs(model));
+  Model held = model;
+  held.constraints.insert(held.constraints.end(), loose.begin(), loose.end());
+  return eliminate_constraints(held, used_dofs(model));
+}
+
 }  // namespace
 
 Structure assemble(const Model& model) {
@@ -297,7 +324,7 @@ Structure assemble(const Model& model) {
                      "Give sections to the mesh's lines and surfaces, or check the set names");
   require_consistent_parts(model);
   Structure s;
-  s.dofs = eliminate_constraints(model, used_dofs(model));
+  s.dofs = dof_map(model);
   const ElementDofs elements = free_dofs(model, s.dofs);
   const std::vector<Vec3> directors = shell_directors(model);
   Beside beside;

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "fem/elements/beam.hpp"
+#include "fem/elements/rod.hpp"
 #include "fem/elements/shell.hpp"
 #include "fem/error.hpp"
 #include "fem/shell_directors.hpp"
@@ -31,11 +32,17 @@ struct GeometricStiffnessOf {
   }
   void operator()(const PointMass&) const {}  // bear no stress; have no nodes here
   void operator()(const Spring&) const {}
+  void operator()(const Bush&) const {}
+  void operator()(const Rod& e) const {
+    rod_geometric_stiffness(e, model.beam_sections[static_cast<std::size_t>(e.section)], material(e.material),
+                            model.nodes, u, out);
+  }
 };
 
 struct NodesOf {
   std::span<const int> operator()(const PointMass&) const { return {}; }
   std::span<const int> operator()(const Spring&) const { return {}; }
+  std::span<const int> operator()(const Bush&) const { return {}; }
   template <typename Element>
   std::span<const int> operator()(const Element& e) const {
     return e.nodes;

@@ -100,7 +100,20 @@ void add(const Model& model, const PointMass& mass, Moments& sum) {
   sum.rotary += mass.inertia;
 }
 
+void add(const Model& model, const Rod& rod, Moments& sum) {
+  const Material& material = model.materials[static_cast<std::size_t>(rod.material)];
+  const BeamSection& section = model.beam_sections[static_cast<std::size_t>(rod.section)];
+  const Vec3& a = model.nodes[static_cast<std::size_t>(rod.nodes[0])];
+  const Vec3 along = model.nodes[static_cast<std::size_t>(rod.nodes[1])] - a;
+  const double length = along.norm(), mass = (material.rho * section.A + section.nsm) * length;
+  const double gauss = 0.5 / std::sqrt(3.0);
+  for (const double s : {0.5 - gauss, 0.5 + gauss}) sum.add_point(0.5 * mass, a + s * along);
+  if (rod.mass != BeamMass::nastran)
+    sum.rotary += material.rho * (section.Iy + section.Iz) / length * along * along.transpose();
+}
+
 void add(const Model&, const Spring&, Moments&) {}
+void add(const Model&, const Bush&, Moments&) {}
 
 }  // namespace
 

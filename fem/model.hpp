@@ -105,15 +105,38 @@ struct PointMass {
   long id = 0;
 };
 
-/// k between two dofs, or from one dof to ground (node_b < 0).
+/// k between two dofs, or from one dof to ground (node_b < 0). Ends apart from each other are not moved to one point: a
+/// rigid motion may load them.
 struct Spring {
   int node_a = 0, dof_a = 0;
   int node_b = -1, dof_b = 0;
   double k = 0.0;  ///< [N/m] or [N m/rad]
   long id = 0;
+  /// Unit vectors, basic frame, in place of the axis of dof_a and dof_b, which then only tell displacement (0..2) from
+  /// rotation (3..5); zero: the axis itself.
+  Vec3 axis_a = Vec3::Zero(), axis_b = Vec3::Zero();
 };
 
-using Element = std::variant<Beam, Quad4, Tria3, PointMass, Spring>;
+/// A bar that bears axial force and torque but does not bend: A, J, nsm of its section; Iy + Iz is the polar inertia.
+struct Rod {
+  std::array<int, 2> nodes{};
+  int section = 0;  ///< of beam_sections
+  int material = 0;
+  BeamMass mass = BeamMass::high_order;  ///< `nastran`: COUPMASS of CROD, see elements/rod.hpp
+  long id = 0;
+};
+
+/// Springs in all six directions that act at one point between two nodes, or between one and ground (node_b < 0); the
+/// nodes hang rigidly on the point, so that no rigid motion loads them.
+struct Bush {
+  int node_a = 0, node_b = -1;
+  std::array<double, 6> k{};     ///< along and about `axes` [N/m, N m/rad]
+  Mat3 axes = Mat3::Identity();  ///< columns: the springs' axes in the basic frame
+  Vec3 offset = Vec3::Zero();    ///< from node_a to the point, basic frame [m]
+  long id = 0;
+};
+
+using Element = std::variant<Beam, Quad4, Tria3, PointMass, Spring, Rod, Bush>;
 
 /// One of the six dofs of a node, 0..5.
 struct Dof {

@@ -26,7 +26,9 @@ struct MarkUsed {
     for (const int node : element.nodes) mark(node);
   }
   void operator()(const fem::PointMass& point) const { mark(point.node); }
-  void operator()(const fem::Spring& spring) const {
+  template <class E>
+  requires requires(const E& e) { e.node_b; }
+  void operator()(const E& spring) const {
     mark(spring.node_a);
     mark(spring.node_b);
   }

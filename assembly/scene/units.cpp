@@ -32,6 +32,11 @@ struct Convert {
     const int rotations = (spring.dof_a > 2 ? 1 : 0) + ((spring.node_b < 0 ? spring.dof_a : spring.dof_b) > 2 ? 1 : 0);
     take(spring.k, units.to_si({rotations - 1, 0, 0, 1}));
   }
+  void operator()(fem::Rod&) const {}
+  void operator()(fem::Bush& bush) const {
+    take(bush.offset, units.to_si(dimension::length));
+    for (std::size_t i = 0; i < 6; ++i) take(bush.k[i], units.to_si({i < 3 ? -1 : 1, 0, 0, 1}));
+  }
 };
 
 /// Entries of K and M of work-conjugate dofs: each rotation brings one length.

@@ -5,7 +5,8 @@
 
 namespace tenon::fem {
 
-/// k [1 −1; −1 1] between two dofs, or k at one dof (1×1) for a spring to ground. Throws ModelError for negative k.
+/// k b bᵀ, b·u the elongation: over the dof of each end, or its three displacements or rotations where the end has an
+/// axis of its own; 1 to 6 rows, node a first. Throws ModelError for negative k.
 void spring_matrices(const Spring& spring, ElementMatrices& out);
 
 }  // namespace tenon::fem

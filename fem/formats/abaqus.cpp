@@ -104,7 +104,7 @@ constexpr std::array harmless{
     Harmless{"CYCLIC HARDENING", of_material},
     Harmless{"DEFORMATION PLASTICITY", of_material},
     Harmless{"DASHPOT", "dampers are no part of K and M"},
-    Harmless{"ORIENTATION", "axes of a section or a material; isotropic ones do not depend on them"},
+    Harmless{"ORIENTATION", "axes of springs, which are read, and of materials: isotropic ones do not depend on them"},
     Harmless{"PART", naming},
     Harmless{"END PART", naming},
     Harmless{"ASSEMBLY", naming},

@@ -59,9 +59,15 @@ struct NastranDeck {
 /// PCOMP: plies of MAT8 or MAT1 in the axes of THETA or MCID, Z0 and ZOFFS become the element's offset; LAM blank or
 /// SYM.
 ///
-/// Scalar points. An SPOINT that the selected MPCs name becomes a node whose first dof is the scalar; others only stand
-/// in the losses. A scalar of the q-set is a coordinate of the reduced body, not a dof of the model: it has no
-/// stiffness and no mass, stays zero in a fixed-interface run, and an equation between it and a grid that no element
+/// Rods: CROD, CTUBE, CONROD bear force and torque (rod.hpp); with COUPMASS BeamMass::nastran, else half and half at
+/// their ends. Springs: CELAS1 to CELAS4 act between two dofs, in the displacement frame of each grid, or to ground;
+/// CBUSH at the point that S, or OCID with S1 to S3, gives, in the axes of CID, of GO or X, or of its line alone.
+/// Damping (B, GE, CDAMP, CVISC) stands in the losses. Negative masses, stiffnesses and constants are refused at their
+/// field.
+///
+/// Scalar points. An SPOINT that springs or the selected MPCs name becomes a node whose first dof is the scalar; others
+/// only stand in the losses. A scalar of the q-set is a coordinate of the reduced body, not a dof of the model: it has
+/// no stiffness and no mass, stays zero in a fixed-interface run, and an equation between it and a grid that no element
 /// uses recovers that grid's motion without touching the structure. An equation that would give it stiffness is
 /// refused.
 ///

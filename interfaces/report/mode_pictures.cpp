@@ -29,6 +29,9 @@ class Cells {
     for (const fem::Element& element : model.elements) {
       if (const auto* beam = std::get_if<fem::Beam>(&element))
         add(CellType::line, {beam->nodes[0], beam->nodes[1]}, first);
+      if (const auto* rod = std::get_if<fem::Rod>(&element)) add(CellType::line, {rod->nodes[0], rod->nodes[1]}, first);
+      if (const auto* bush = std::get_if<fem::Bush>(&element); bush && bush->node_b >= 0)
+        add(CellType::line, {bush->node_a, bush->node_b}, first);
       if (const auto* quad = std::get_if<fem::Quad4>(&element))
         add(CellType::quad, {quad->nodes[0], quad->nodes[1], quad->nodes[2], quad->nodes[3]}, first);
       if (const auto* tria = std::get_if<fem::Tria3>(&element))

@@ -14,7 +14,7 @@
 namespace tenon::fem::abaqus {
 
 /// What elements of a type are made of here.
-enum class Formulation { beam, shell, mass, rotary_inertia, spring_to_ground, spring, other };
+enum class Formulation { beam, truss, shell, mass, rotary_inertia, spring_to_ground, spring, axial_spring, other };
 
 struct ElementType {
   Formulation formulation = Formulation::other;
@@ -89,6 +89,11 @@ struct Draft {
   /// Axes (columns) that dofs of a node are given in.
   const Mat3& axes(int node) const;
 };
+
+/// Axes (columns) of the *ORIENTATION that a block names; nothing when it is of a kind that is not read (cylindrical,
+/// by nodes or offsets). Throws InputError for a name that is not defined, with near misses, and for axes that are
+/// none.
+std::optional<Mat3> orientation(const Draft& draft, const Block& user);
 
 // The steps, in the order of their calls.
 void read_nodes(Draft& draft);       ///< *NODE

@@ -28,8 +28,8 @@ constexpr std::array families{Family{"B31", Formulation::beam, CellType::line},
                               Family{"MASS", Formulation::mass, CellType::vertex},
                               Family{"ROTARYI", Formulation::rotary_inertia, CellType::vertex},
                               Family{"T2D2", Formulation::other, CellType::line},
-                              Family{"T3D2", Formulation::other, CellType::line},
-                              Family{"T3D3", Formulation::other, CellType::line3},
+                              Family{"T3D2", Formulation::truss, CellType::line},
+                              Family{"T3D3", Formulation::truss, CellType::line3},
                               Family{"B21", Formulation::other, CellType::line},
                               Family{"B22", Formulation::other, CellType::line3},
                               Family{"B23", Formulation::other, CellType::line},
@@ -80,7 +80,8 @@ void add_to_set(auto& sets, const std::string& name, const std::vector<int>& mem
 ElementType element_type(const std::string& name) {
   if (name == "SPRING1") return {Formulation::spring_to_ground, {}, 1};
   if (name == "SPRING2") return {Formulation::spring, {}, 2};
-  if (name == "SPRINGA" || name == "DASHPOTA" || name == "DASHPOT2") return {Formulation::other, {}, 2};
+  if (name == "SPRINGA") return {Formulation::axial_spring, {}, 2};
+  if (name == "DASHPOTA" || name == "DASHPOT2") return {Formulation::other, {}, 2};
   if (name == "DASHPOT1" || name == "DCOUP3D") return {Formulation::other, {}, 1};
   const Family* best = nullptr;
   for (const Family& family : families)

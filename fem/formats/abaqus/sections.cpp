@@ -69,6 +69,7 @@ struct SectionReader {
   void masses(const Block& block);
   void rotary_inertia(const Block& block);
   void springs(const Block& block);
+  void solids(const Block& block);
   void unread(const Block& block);
 };
 
@@ -202,34 +203,135 @@ void SectionReader::rotary_inertia(const Block& block) {
   });
 }
 
-// dofs on the first line, the stiffness on the second
-void SectionReader::springs(const Block& block) {
-  DataLines line(block);
+/// What *SPRING says: dofs (0 where the line has none), stiffness, axes of an *ORIENTATION.
+struct SpringBlock {
   std::array<long, 2> dofs{};
-  const bool has_dofs = line.next();
-  for (std::size_t i = 0; i < 2; ++i) dofs[i] = line.size() > i && !line.at(i).empty() ? line.integer(i, "a dof") : 0;
-  const bool plain = !block.has("NONLINEAR") && !block.has("ORIENTATION") && !block.has("COMPLEX STIFFNESS");
-  if (!has_dofs || !line.next()) block.refuse("*SPRING needs a line of dofs and a line with the stiffness", "Add it");
-  const double k = line.real(0, "the stiffness");
-  if (!plain) draft.losses.add_physical("*SPRING", "nonlinear springs and own axes are not read", block.place);
+  double k = 0.0;
+  std::optional<Mat3> axes = {};
+};
+
+// A line of dofs, which SPRINGA leaves blank, then one with the stiffness; more lines are of other temperatures.
+SpringBlock spring_block(Draft& draft, const Block& block, bool axial) {
+  SpringBlock spring;
+  DataLines line(block), ahead(block);
+  const bool has_line = line.next();
+  const bool one_line = ahead.next() && !ahead.next();
+  if (!(axial && has_line && (one_line || !parse_integer(line.at(0))))) {
+    for (std::size_t i = 0; i < 2; ++i)
+      spring.dofs[i] = line.size() > i && !line.at(i).empty() ? line.integer(i, "a dof") : 0;
+    if (!has_line || !line.next()) block.refuse("*SPRING needs a line of dofs and a line with the stiffness", "Add it");
+  }
+  spring.k = line.real(0, "the stiffness");
+  if (!(spring.k >= 0.0)) line.fail(0, "a stiffness that is not negative");
+  bool plain = !block.has("NONLINEAR") && !block.has("COMPLEX STIFFNESS");
+  while (line.next()) plain = plain && line.real(0, "the stiffness") == spring.k;
+  if (!plain)
+    draft.losses.add_physical("*SPRING", "stiffness over elongation, temperature or frequency is not read",
+                              block.place);
+  if (block.has("ORIENTATION")) {
+    spring.axes = orientation(draft, block);
+    if (!spring.axes)
+      draft.losses.add_physical("*SPRING", "axes that turn from point to point are not read", block.place);
+  }
+  return spring;
+}
+
+void SectionReader::springs(const Block& block) {
+  const auto is_axial = [&](const ListedElement& e) {
+    return type_of(e).type.formulation == Formulation::axial_spring;
+  };
+  const std::vector<int>& set = draft.element_set(block.value("ELSET"), block.place);
+  const bool axial = !set.empty() && is_axial(draft.elements[static_cast<std::size_t>(set.front())]);
+  const SpringBlock read = spring_block(draft, block, axial);
   each(block, [&](const ListedElement& e) {
     const Formulation f = type_of(e).type.formulation;
     if (f == Formulation::other) return;  // named with the elements without a counterpart
-    const std::size_t ends = f == Formulation::spring ? 2 : 1;
-    if (f != Formulation::spring && f != Formulation::spring_to_ground) wrong_type(block, e);
-    for (std::size_t i = 0; i < ends; ++i)
-      if (dofs[i] < 1 || dofs[i] > 6)
-        block.refuse(fmt::format("the spring's dof is {}, expected 1 to 6", dofs[i]), "Correct its first data line");
     const int* const n = &draft.element_nodes[static_cast<std::size_t>(e.first_node)];
-    Spring spring{.node_a = n[0], .dof_a = static_cast<int>(dofs[0]) - 1, .k = k, .id = e.id};
+    if (is_axial(e) != axial || (!axial && f != Formulation::spring && f != Formulation::spring_to_ground))
+      wrong_type(block, e);
+    if (axial) {
+      const Vec3 along = model().nodes[static_cast<std::size_t>(n[1])] - model().nodes[static_cast<std::size_t>(n[0])];
+      if (!(along.norm() > 0.0))
+        block.refuse(fmt::format("element {} has no length: its two nodes lie at one place", e.id),
+                     "A SPRINGA acts along the line of its nodes; take SPRING2 between coincident ones");
+      Bush bush{.node_a = n[0], .node_b = n[1], .k = {read.k}, .id = e.id};
+      const Vec3 x = along.normalized(), y = x.unitOrthogonal();
+      bush.axes << x, y, x.cross(y);
+      model().elements.emplace_back(bush);
+      return;
+    }
+    const std::size_t ends = f == Formulation::spring ? 2 : 1;
+    for (std::size_t i = 0; i < ends; ++i) {
+      if (read.dofs[i] < 1 || read.dofs[i] > 6)
+        block.refuse(fmt::format("the spring's dof is {}, expected 1 to 6", read.dofs[i]),
+                     "Correct its first data line");
+      if (!read.axes && draft.node_axes.contains(n[i]))
+        draft.losses.add_physical("*SPRING", "springs at nodes with *TRANSFORM are not read", block.place);
+    }
+    Spring spring{.node_a = n[0], .dof_a = static_cast<int>(read.dofs[0]) - 1, .k = read.k, .id = e.id};
+    if (read.axes) spring.axis_a = read.axes->col(spring.dof_a % 3);
     if (ends == 2) {
       spring.node_b = n[1];
-      spring.dof_b = static_cast<int>(dofs[1]) - 1;
+      spring.dof_b = static_cast<int>(read.dofs[1]) - 1;
+      if (read.axes) spring.axis_b = read.axes->col(spring.dof_b % 3);
     }
-    for (std::size_t i = 0; i < ends; ++i)
-      if (draft.node_axes.contains(n[i]))
-        draft.losses.add_physical("*SPRING", "springs at nodes with *TRANSFORM are not read", block.place);
     model().elements.emplace_back(spring);
+  });
+}
+
+/// A straight bar across its middle node: that node stays on the line of the ends, which no axial force would tell it.
+void follow_ends(Model& model, const std::array<int, 3>& n, long id) {
+  const auto at = [&](int node) { return model.nodes[static_cast<std::size_t>(node)]; };
+  const Vec3 line = at(n[2]) - at(n[0]), x = line.normalized(), y = x.unitOrthogonal();
+  const double s = (at(n[1]) - at(n[0])).dot(x) / line.norm();
+  for (const Vec3& across : {y, Vec3(x.cross(y))}) {
+    LinearConstraint row{{}, id};
+    int first = 0;
+    across.cwiseAbs().maxCoeff(&first);
+    for (const int k : {0, 1, 2})
+      if (const int d = (first + k) % 3; across[d] != 0.0) row.terms.push_back({{n[1], d}, across[d]});
+    for (int d = 0; d < 3; ++d)
+      if (across[d] != 0.0) {
+        row.terms.push_back({{n[0], d}, -(1.0 - s) * across[d]});
+        row.terms.push_back({{n[2], d}, -s * across[d]});
+      }
+    model.constraints.push_back(std::move(row));
+  }
+}
+
+// *SOLID SECTION of trusses: the area, 1 where it is blank
+void SectionReader::solids(const Block& block) {
+  int section = -1, material_index = -1;
+  const auto prepare = [&] {
+    if (section >= 0) return;
+    DataLines line(block);
+    BeamSection s{.name = block.value("ELSET"), .A = 1.0};
+    if (line.next() && !line.at(0).empty()) s.A = line.positive(0, "the area");
+    const DraftMaterial& named = material(block);
+    if (!named.isotropic)
+      draft.losses.add_physical("*SOLID SECTION",
+                                fmt::format("material '{}' that is not isotropic", named.material.name), block.place);
+    section = static_cast<int>(model().beam_sections.size());
+    model().beam_sections.push_back(s);
+    material_index = add(named.material);
+  };
+  each(block, [&](const ListedElement& e) {
+    if (type_of(e).type.formulation == Formulation::other) return;  // named with the elements without a counterpart
+    if (type_of(e).type.formulation != Formulation::truss) wrong_type(block, e);
+    prepare();
+    const int* const n = &draft.element_nodes[static_cast<std::size_t>(e.first_node)];
+    const auto put = [&](int a, int b) {
+      if (model().nodes[static_cast<std::size_t>(a)] == model().nodes[static_cast<std::size_t>(b)])
+        block.refuse(fmt::format("element {} has no length: two of its nodes lie at one place", e.id),
+                     "Correct its nodes");
+      model().elements.emplace_back(Rod{.nodes = {a, b}, .section = section, .material = material_index, .id = e.id});
+    };
+    put(n[0], n[1]);
+    if (e.nodes == 2) return;
+    put(n[1], n[2]);
+    const bool alone = std::ranges::count(draft.element_nodes, n[1]) == 1;
+    if (alone) follow_ends(model(), {n[0], n[1], n[2]}, e.id);
+    draft.losses.add(type_of(e).name, "split into two bars of two nodes");
   });
 }
 
@@ -250,7 +352,7 @@ void read_sections(Draft& draft) {
       {"MASS", &SectionReader::masses},
       {"ROTARY INERTIA", &SectionReader::rotary_inertia},
       {"SPRING", &SectionReader::springs},
-      {"SOLID SECTION", &SectionReader::unread},
+      {"SOLID SECTION", &SectionReader::solids},
       {"MEMBRANE SECTION", &SectionReader::unread},
       {"GASKET SECTION", &SectionReader::unread},
       {"SURFACE SECTION", &SectionReader::unread},

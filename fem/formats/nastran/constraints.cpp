@@ -60,22 +60,6 @@ void hold(Draft& draft, int node, unsigned components) {
 /// Terms of an MPC stand at fields 2 and 5, 10 and 13, 18 and 21, ...
 int next_term(int field) { return field + (field % 8 == 2 ? 3 : 5); }
 
-/// The node that stands for a scalar point; it lies at the first grid of the equation that names it.
-int scalar_node(Draft& draft, const Card& card, long id) {
-  if (const auto found = draft.scalar_node.find(id); found != draft.scalar_node.end()) return found->second;
-  Vec3 place = Vec3::Zero();
-  for (int k = 2; k <= card.size(); k = next_term(k)) {
-    const int* const grid = draft.node_of.find(parse_integer(card.at(k)).value_or(0));
-    if (!grid) continue;
-    place = draft.deck.model.nodes[static_cast<std::size_t>(*grid)];
-    break;
-  }
-  const int node = draft.make_node(place, id);
-  draft.scalar_node.emplace(id, node);
-  draft.deck.model.scalar_points.push_back(node);
-  return node;
-}
-
 /// One MPC card as it becomes an equation; equal dofs are added up.
 struct Equation {
   Draft& draft;
@@ -106,7 +90,9 @@ void Equation::add(const Dof& dof, double coefficient) {
 void Equation::scalar_term(int field, long id) {
   if (card.components(field + 1, "C") > 1) card.fail(field + 1, "C", "0, 1 or a blank for a scalar point");
   const bool known = draft.scalar_node.contains(id), in_q_set = draft.scalars.in_q_set(id);
-  const Dof scalar{scalar_node(draft, card, id), 0};
+  std::vector<int> fields;
+  for (int k = 2; k <= card.size(); k = next_term(k)) fields.push_back(k);
+  const Dof scalar{scalar_node(draft, card, id, fields), 0};
   const bool first = !known && !in_q_set && !draft.scalars.is_held(id);
   if (field == 2 || (first && !defines)) dependent = scalar;
   defines = defines || first;
@@ -163,6 +149,20 @@ LinearConstraint equation(Draft& draft, const Card& card) {
 }
 
 }  // namespace
+
+int scalar_node(Draft& draft, const Card& card, long id, const std::vector<int>& fields) {
+  if (const auto found = draft.scalar_node.find(id); found != draft.scalar_node.end()) return found->second;
+  Vec3 place = Vec3::Zero();
+  for (const int k : fields)
+    if (const int* const grid = draft.node_of.find(parse_integer(card.at(k)).value_or(0))) {
+      place = draft.deck.model.nodes[static_cast<std::size_t>(*grid)];
+      break;
+    }
+  const int node = draft.make_node(place, id);
+  draft.scalar_node.emplace(id, node);
+  draft.deck.model.scalar_points.push_back(node);
+  return node;
+}
 
 std::vector<Card> selected(Draft& draft, const char* kind, const std::vector<Card>& cards,
                            const std::optional<Choice>& choice) {

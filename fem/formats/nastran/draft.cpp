@@ -140,7 +140,7 @@ void read_scalar_points(Draft& draft) {
       if (grid != draft.sorted_grids.end() && *grid <= range.last)
         card.refuse(0, fmt::format("gives scalar points the number {}, which is a GRID", *grid),
                     "Number scalar points apart from the grids");
-      draft.losses.add("SPOINT", "scalar points: no part of the model unless a selected MPC names them");
+      draft.losses.add("SPOINT", "scalar points: no part of the model unless a spring or a selected MPC names them");
     }
   for (const Card& card : draft.take("QSET"))
     for (int i = 1; i <= card.size(); i += 2) {

@@ -173,13 +173,15 @@ void sort_cards(const Text& text, Draft& draft);
 // The steps, in the order of their calls.
 void read_grids(Draft& draft);          ///< GRDSET, CORDij, GRID
 void read_scalar_points(Draft& draft);  ///< SPOINT, QSET
-void read_elements(Draft& draft);       ///< MAT1/2/8, PBAR, PSHELL, PCOMP, BAROR, CBAR, shells, CONM2
-void lump_masses(Draft& draft);         ///< without PARAM,COUPMASS
-void read_links(Draft& draft);          ///< RBE2, RBE3
-void read_boundary(Draft& draft);       ///< ASET, ASET1, BSET, BSET1
-void read_supports(Draft& draft);       ///< SPC, SPC1, SPCADD, PS of GRID
-void read_equations(Draft& draft);      ///< MPC, MPCADD
-void classify_rest(Draft& draft);       ///< every card still in `cards` becomes a loss
+void read_elements(Draft& draft);       ///< MAT1/2/8, PBAR, PROD, PTUBE, PSHELL, PCOMP, BAROR, CBAR, CROD, CONROD,
+                                        ///< CTUBE, shells, CONM2, and those of read_springs
+void read_springs(Draft& draft, Register& elements);  ///< PELAS, CELAS1..4, PBUSH, CBUSH
+void lump_masses(Draft& draft);                       ///< without PARAM,COUPMASS
+void read_links(Draft& draft);                        ///< RBE2, RBE3
+void read_boundary(Draft& draft);                     ///< ASET, ASET1, BSET, BSET1
+void read_supports(Draft& draft);                     ///< SPC, SPC1, SPCADD, PS of GRID
+void read_equations(Draft& draft);                    ///< MPC, MPCADD
+void classify_rest(Draft& draft);                     ///< every card still in `cards` becomes a loss
 
 /// The basic direction and sign that a unit vector points along, if it points along one (to 1e-12).
 struct Axis {
@@ -191,6 +193,9 @@ std::optional<Axis> basic_axis(const Vec3& unit);
 /// Directions given in `axes`, in the basic frame: when the translations and the rotations among them are all or none,
 /// or the frame only renames the axes. Nothing when the frame is skew to them.
 std::optional<Directions> basic_directions(unsigned components, const Mat3& axes);
+
+/// The node that stands for a scalar point; it lies at the first grid among `fields` of the card that names it.
+int scalar_node(Draft& draft, const Card& card, long id, const std::vector<int>& fields);
 
 /// Which of the sets of one kind apply: the chosen one and, if it is an ADD card, the sets that card names. Sets that
 /// do not apply become losses. `kind` is SPC or MPC; `cards` are those of every set (field 1 = set number).

@@ -48,6 +48,7 @@ struct ElementReader {
   void carry(int node) { draft.carries[static_cast<std::size_t>(node)] = true; }
 
   void bar(const Card& card);
+  void rod(const Card& card, const Property& property, int first_node);
   Vec3 orientation(const Card& card, int node_a) const;
   std::string offset_codes(const Card& card) const;
   Vec3 offset(const Card& card, int first, const char* label, char code, int node) const;
@@ -128,6 +129,22 @@ void ElementReader::bar(const Card& card) {
   const auto& section = draft.deck.model.beam_sections[static_cast<std::size_t>(beam.section)];
   cells.add(0, beam.nodes, beam.id, section.name);
   draft.deck.model.elements.emplace_back(beam);
+}
+
+// G1 G2; torsion acts between the rotations about the line that joins them
+void ElementReader::rod(const Card& card, const Property& property, int first_node) {
+  Rod rod{.section = property.section, .material = property.material, .id = card.id(1, "EID")};
+  rod.nodes = {draft.node(card, first_node, "G1"), draft.node(card, first_node + 1, "G2")};
+  const Vec3 &a = at(rod.nodes[0]), &b = at(rod.nodes[1]);
+  if (!((b - a).norm() > 1e-12 * (a.norm() + b.norm())))
+    card.refuse(first_node,
+                fmt::format("{} has no length: both ends lie at ({:g}, {:g}, {:g})", rod.id, a.x(), a.y(), a.z()),
+                "Correct the grids; a spring between coincident grids is a CBUSH");
+  if (draft.deck.coupled_mass) rod.mass = BeamMass::nastran;
+  carry(rod.nodes[0]);
+  carry(rod.nodes[1]);
+  cells.add(0, rod.nodes, rod.id, draft.deck.model.beam_sections[static_cast<std::size_t>(rod.section)].name);
+  draft.deck.model.elements.emplace_back(rod);
 }
 
 // THETA in degrees from the side G1-G2 about the normal, or MCID, whose x axis it is; zero for a blank
@@ -263,17 +280,26 @@ void ElementReader::point_mass(const Card& card) {
 }  // namespace
 
 void read_elements(Draft& draft) {
-  ElementReader reader{draft, read_properties(draft), Register{"element"}, {}, {}};
+  MaterialIndex materials;
+  ElementReader reader{draft, read_properties(draft, materials), Register{"element"}, {}, {}};
   for (const Card& card : draft.take("BAROR")) {
     if (reader.bar_defaults && !reader.bar_defaults->same_as(card))
       card.refuse(0, "stands twice", "Keep one BAROR card");
     reader.bar_defaults = card;
   }
   std::size_t count = draft.deck.model.elements.size();
-  for (const char* name : {"CBAR", "CQUAD4", "CQUADR", "CTRIA3", "CTRIAR", "CONM2"})
+  for (const char* name : {"CBAR", "CROD", "CONROD", "CTUBE", "CQUAD4", "CQUADR", "CTRIA3", "CTRIAR", "CONM2"})
     if (const auto found = draft.cards.find(name); found != draft.cards.end()) count += found->second.size();
   draft.deck.model.elements.reserve(count);
+  const auto is_new = [&](const Card& card) { return reader.known.admit(card.id(1, "EID"), card, draft.losses); };
   for (const Card& card : draft.take("CBAR")) reader.bar(card);
+  for (const Card& card : draft.take("CROD"))
+    if (is_new(card)) reader.rod(card, Properties::find(reader.properties.rods, "PROD", card, 2), 3);
+  for (const Card& card : draft.take("CTUBE"))
+    if (is_new(card)) reader.rod(card, Properties::find(reader.properties.tubes, "PTUBE", card, 2), 3);
+  for (const Card& card : draft.take("CONROD"))  // EID G1 G2 MID A J C NSM
+    if (is_new(card))
+      reader.rod(card, rod_property(draft, materials, card, 4, fmt::format("conrod {}", card.id(1, "EID"))), 2);
   for (const Card& card : draft.take("CQUAD4")) reader.shell<Quad4>(card, 1);
   for (const Card& card : draft.take("CTRIA3")) reader.shell<Tria3>(card, 2);
   for (const Card& card : draft.take("CQUADR")) reader.shell<Quad4>(card, 1);
@@ -281,6 +307,7 @@ void read_elements(Draft& draft) {
   for (const Card& card : draft.take("CQUAD8")) reader.second_order_shell<4>(card);
   for (const Card& card : draft.take("CTRIA6")) reader.second_order_shell<3>(card);
   for (const Card& card : draft.take("CONM2")) reader.point_mass(card);
+  read_springs(draft, reader.known);
   reader.cells.finish(draft.deck.mesh);
 }
 

@@ -14,7 +14,7 @@ struct Harmless {
   std::string_view note;
 };
 
-constexpr std::array<Harmless, 9> harmless{{
+constexpr std::array<Harmless, 11> harmless{{
     {"EIGR EIGRL EIGB EIGC EIGP", "how Nastran would solve: the program has its own options"},
     {"FORCE FORCE1 FORCE2 MOMENT MOMENT1 MOMENT2 GRAV ACCEL ACCEL1 LOAD PLOAD PLOAD1 PLOAD2 PLOAD4 PLOADX1 RFORCE "
      "SLOAD "
@@ -24,6 +24,9 @@ constexpr std::array<Harmless, 9> harmless{{
     {"TABLED* TABLEM* TABLES1 TABLEST TABRND* TABDMP1 MATT1 MATS1 CREEP", "tables and what depends on them"},
     {"FREQ FREQ1 FREQ2 FREQ3 FREQ4 FREQ5 TSTEP TSTEPNL NLPARM NLPCI NLSTEP RCROSS",
      "steps of a solution that is not run here"},
+    {"CDAMP* PDAMP PDAMP5 PDAMPT CVISC PVISC", "dampers are no part of K and M"},
+    {"PBUSHT PELAST",
+     "tables of springs over frequency or force: their nominal stiffness counts, as in Nastran's modes"},
     {"SUPORT SUPORT1 SUPAX", "the rigid motions are found without being named"},
     {"CSET CSET1 OMIT OMIT1 USET USET1 SESET", "a partition of the dofs for Nastran's own reduction"},
     {"PLOTEL PLOTEL3 PLOTEL4 SET1 SET3 GROUP ECHOON ECHOOFF DTI MDLPRM", "pictures, sets and output"},
@@ -43,9 +46,9 @@ bool listed(std::string_view names, std::string_view card) {
 }
 
 constexpr std::string_view structural =
-    "CROD CONROD CTUBE CBEAM CBEAM3 CBEND CBUSH CBUSH1D CELAS* CSHEAR CQUAD CTETRA CHEXA "
-    "CPENTA CPYRAM CGAP CWELD CFAST CMASS* CONM1 CVISC CDAMP* CCONEAX CRAC* PROD PTUBE PBEAM PBEAML PBARL PBCOMP PBEND "
-    "PBUSH PBUSH1D PELAS PSHEAR PCOMPG PSOLID PGAP PMASS MAT3 MAT9 MAT10 RBAR RBAR1 RBE1 RROD RTRPLT "
+    "CBEAM CBEAM3 CBEND CBUSH1D CSHEAR CQUAD CTETRA CHEXA "
+    "CPENTA CPYRAM CGAP CWELD CFAST CMASS* CONM1 CCONEAX CRAC* PBEAM PBEAML PBARL PBCOMP PBEND "
+    "PBUSH1D PSHEAR PCOMPG PSOLID PGAP PMASS MAT3 MAT9 MAT10 RBAR RBAR1 RBE1 RROD RTRPLT "
     "RSPLINE RSSCON RJOINT GENEL DMIG NSM NSM1 NSML NSML1 NSMADD SPCAX RELEASE SEBULK SECONCT SEELT SEMPLN SELOC "
     "CSUPER BOLT BSURF BCTSET BGSET MAT4 PLPLANE PAABSF CAABSF CHACAB CFLUID2";
 

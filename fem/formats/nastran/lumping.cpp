@@ -108,6 +108,15 @@ struct Lumper {
   void operator()(Tria3& triangle) { lump_shell(triangle); }
   void operator()(PointMass&) {}
   void operator()(Spring&) {}
+  void operator()(Bush&) {}
+  void operator()(Rod& rod) {
+    const auto& section = model.beam_sections[static_cast<std::size_t>(rod.section)];
+    const double rho = model.materials[static_cast<std::size_t>(rod.material)].rho;
+    const double half = 0.5 * (rho * section.A + section.nsm) * (at(rod.nodes[1]) - at(rod.nodes[0])).norm();
+    for (const int node : rod.nodes) put(node, half, Vec3::Zero(), rod.id);
+    rod.section = beam_sections.of(rod.section);
+    rod.material = materials.of(rod.material);
+  }
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 
 namespace tenon::fem::nastran {
 namespace {
@@ -46,14 +47,6 @@ MaterialIndex read_materials(Draft& draft) {
   return index;
 }
 
-int material(const MaterialIndex& materials, const Card& card, int field, const char* label) {
-  const auto found = materials.find(card.id(field, label));
-  if (found == materials.end())
-    card.refuse(field, fmt::format("field {} names material {}, which is not defined by a MAT1", label, card.at(field)),
-                "Add the MAT1 card or correct the number");
-  return found->second;
-}
-
 void read_bars(Draft& draft, const MaterialIndex& materials, Properties& properties) {
   Register known("PBAR");
   for (const Card& card : draft.take("PBAR")) {
@@ -79,6 +72,33 @@ void read_bars(Draft& draft, const MaterialIndex& materials, Properties& propert
         id, Property{static_cast<int>(draft.deck.model.beam_sections.size()), material(materials, card, 2, "MID")});
     draft.deck.model.beam_sections.push_back(s);
   }
+}
+
+// OD and T, which is half of OD where it is blank or zero: a solid bar
+Property tube_property(Draft& draft, const MaterialIndex& materials, const Card& card) {
+  const double od = card.positive(3, "OD"), t = card.non_negative(4, "T", 0.0);
+  if (t > 0.5 * od) card.fail(4, "T", fmt::format("at most half of OD = {:g}", od));
+  if (card.real(6, "OD2", od) != od)
+    draft.losses.add_physical("PTUBE OD2", "a tapered tube: its first diameter alone would count", card.place(6));
+  const double id = t > 0.0 ? od - 2.0 * t : 0.0;
+  BeamSection s;
+  s.name = fmt::format("ptube {}", card.id(1, "PID"));
+  s.A = 0.25 * std::numbers::pi * (od * od - id * id);
+  s.J = 0.125 * s.A * (od * od + id * id);  // π/32 (OD⁴ − ID⁴)
+  s.nsm = card.non_negative(5, "NSM", 0.0);
+  const int section = static_cast<int>(draft.deck.model.beam_sections.size());
+  draft.deck.model.beam_sections.push_back(s);
+  return {section, material(materials, card, 2, "MID")};
+}
+
+void read_rods(Draft& draft, const MaterialIndex& materials, Properties& properties) {
+  Register known_rods("PROD"), known_tubes("PTUBE");
+  for (const Card& card : draft.take("PROD"))
+    if (const long id = card.id(1, "PID"); known_rods.admit(id, card, draft.losses))
+      properties.rods.emplace(id, rod_property(draft, materials, card, 2, fmt::format("prod {}", id)));
+  for (const Card& card : draft.take("PTUBE"))
+    if (const long id = card.id(1, "PID"); known_tubes.admit(id, card, draft.losses))
+      properties.tubes.emplace(id, tube_property(draft, materials, card));
 }
 
 /// MID4 other than MID1 would couple membrane and bending.
@@ -150,10 +170,34 @@ void Properties::add_laminate(long id, ShellSection section, double offset, Mode
   model.shell_sections.push_back(std::move(section));
 }
 
-Properties read_properties(Draft& draft) {
+int material(const MaterialIndex& materials, const Card& card, int field, const char* label) {
+  const auto found = materials.find(card.id(field, label));
+  if (found == materials.end())
+    card.refuse(field, fmt::format("field {} names material {}, which is not defined by a MAT1", label, card.at(field)),
+                "Add the MAT1 card or correct the number");
+  return found->second;
+}
+
+Property rod_property(Draft& draft, const MaterialIndex& materials, const Card& card, int first, std::string name) {
+  BeamSection s;
+  s.name = std::move(name);
+  s.A = card.non_negative(first + 1, "A", 0.0);
+  s.J = card.non_negative(first + 2, "J", 0.0);
+  if (s.A == 0.0 && s.J == 0.0) card.fail(first + 1, "A", "a number above zero here or in field J");
+  s.nsm = card.non_negative(first + 4, "NSM", 0.0);
+  const int m = material(materials, card, first, "MID");
+  const Material& named = draft.deck.model.materials[static_cast<std::size_t>(m)];
+  if ((s.A > 0.0 && !(named.E > 0.0)) || (s.J > 0.0 && !(named.G > 0.0)))
+    card.fail(first, "MID", fmt::format("a material with {}", s.A > 0.0 && !(named.E > 0.0) ? "E" : "G (for J)"));
+  draft.deck.model.beam_sections.push_back(s);
+  return {static_cast<int>(draft.deck.model.beam_sections.size()) - 1, m};
+}
+
+Properties read_properties(Draft& draft, MaterialIndex& materials) {
   Properties properties;
-  const MaterialIndex materials = read_materials(draft);
+  materials = read_materials(draft);
   read_bars(draft, materials, properties);
+  read_rods(draft, materials, properties);
   const Orthotropic orthotropic = read_orthotropic(draft);
   read_shells(draft, materials, orthotropic, properties);
   read_composites(draft, materials, orthotropic, properties);

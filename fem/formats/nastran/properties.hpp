@@ -5,7 +5,7 @@
 
 #include "fem/formats/nastran/draft.hpp"
 
-/// Materials and sections of a deck: MAT1, MAT2, MAT8, PBAR, PSHELL, PCOMP.
+/// Materials and sections of a deck: MAT1, MAT2, MAT8, PBAR, PROD, PTUBE, PSHELL, PCOMP.
 namespace tenon::fem::nastran {
 
 /// What an element's property number leads to: indices into the model.
@@ -39,6 +39,7 @@ Ply single_ply(const Card& card, const Orthotropic& orthotropic, const MaterialI
 
 struct Properties {
   std::unordered_map<long, Property> bars, shells;  ///< PBAR, PSHELL and PCOMP by PID
+  std::unordered_map<long, Property> rods, tubes;   ///< PROD, PTUBE
 
   /// The property an element names; throws InputError at the field.
   static const Property& find(const std::unordered_map<long, Property>& properties, const char* kind, const Card& card,
@@ -52,7 +53,13 @@ struct Properties {
 void read_composites(Draft& draft, const MaterialIndex& materials, const Orthotropic& orthotropic,
                      Properties& properties);
 
-/// Appends materials and sections to the draft's model.
-Properties read_properties(Draft& draft);
+/// The material that a card names; throws InputError at the field.
+int material(const MaterialIndex& materials, const Card& card, int field, const char* label);
+
+/// MID A J C NSM, from field `first` on, as PROD and CONROD have them; appended to the draft's model.
+Property rod_property(Draft& draft, const MaterialIndex& materials, const Card& card, int first, std::string name);
+
+/// Appends materials and sections to the draft's model; fills `materials`.
+Properties read_properties(Draft& draft, MaterialIndex& materials);
 
 }  // namespace tenon::fem::nastran

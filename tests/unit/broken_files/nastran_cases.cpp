@@ -93,7 +93,7 @@ void add_cards(std::vector<Case>& cases) {
            card("equation on an unknown grid", "MPC,2,9,1,1.,2,1,1.", {"bad.bdf:9", "9"}),
            card("equation in direction 9", "MPC,2,1,9,1.,2,1,1.", {"bad.bdf:9"}),
            card("equation cut", "MPC,2,1,1", {"bad.bdf:9"}),
-           card("truss read past", "CROD,7,1,1,2", {"bad.bdf:9", "CROD"}),
+           card("gap read past", "CGAP,7,1,1,2", {"bad.bdf:9", "CGAP"}),
            card("solid read past", "CHEXA,7,1,1,2,1,2,1,2", {"bad.bdf:9", "CHEXA"}),
            card("field of seventeen characters", "GRID*   3                               1.5.7", {"bad.bdf:9"}),
            card("number with two points", "GRID,3,,1.5.7", {"bad.bdf:9:9"}),

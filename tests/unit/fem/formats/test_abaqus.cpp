@@ -227,6 +227,62 @@ TEST_F(Abaqus, RigidBodiesCouplingsEquationsAndSprings) {
   EXPECT_EQ(k.k, 1000.0);
 }
 
+TEST_F(Abaqus, TrussesAreRods) {
+  const std::string nodes =
+      "*NODE\n1,0.,0.,0.\n2,1.,0.,1.\n3,2.,0.,2.\n4,0.,1.,0.\n*MATERIAL,NAME=AL\n*ELASTIC\n7e10,.3\n"
+      "*DENSITY\n2700.\n";
+  const Model two =
+      read(nodes + "*ELEMENT,TYPE=T3D2,ELSET=bars\n5,1,2\n6,1,4\n*SOLID SECTION,ELSET=bars,MATERIAL=AL\n1e-4\n").model;
+  ASSERT_EQ(two.elements.size(), 2U);
+  EXPECT_THAT(std::get<Rod>(two.elements[1]).nodes, ElementsAre(0, 3));
+  EXPECT_EQ(two.beam_sections.at(0).A, 1e-4);
+  EXPECT_EQ(two.beam_sections.at(0).J, 0.0);
+  EXPECT_EQ(read(nodes + "*ELEMENT,TYPE=T3D2,ELSET=bars\n5,1,2\n*SOLID SECTION,ELSET=bars,MATERIAL=AL\n")
+                .model.beam_sections.at(0)
+                .A,
+            1.0);  // the area that a blank stands for
+
+  // Three nodes on a line: the middle one moves across with the ends, and along on its own.
+  const Model three =
+      read(nodes + "*ELEMENT,TYPE=T3D3,ELSET=bars\n5,1,2,3\n*SOLID SECTION,ELSET=bars,MATERIAL=AL\n1e-4\n").model;
+  EXPECT_EQ(three.elements.size(), 2U);
+  ASSERT_EQ(three.constraints.size(), 2U);
+  EXPECT_EQ(loss(three, "T3D3")->count, 1);
+  const Structure s = assemble(three);
+  EXPECT_EQ(s.n(), 7);
+  const Eigen::MatrixXd K = Eigen::MatrixXd(s.K).selfadjointView<Eigen::Lower>(), R = rigid_motions(s, Vec3::Zero());
+  EXPECT_LT((K * R).cwiseAbs().maxCoeff(), 1e-14 * K.cwiseAbs().maxCoeff());
+  EXPECT_NEAR(mass_properties(s).mass, 2700.0 * 1e-4 * std::sqrt(8.0), 1e-14);
+}
+
+TEST_F(Abaqus, SpringsAlongTheirLineAndTheirOwnAxes) {
+  const std::string nodes = "*NODE\n1,0.,0.,0.\n2,1.,2.,2.\n3,0.,0.,0.\n";
+  const std::string axial = nodes + "*ELEMENT,TYPE=SPRINGA,ELSET=k\n5,1,2\n*SPRING,ELSET=k\n";
+  for (const char* lines : {"\n10.\n", "1,1\n10.\n", "10.\n"}) {
+    const auto bush = std::get<Bush>(read(axial + lines).model.elements.at(0));
+    EXPECT_THAT(bush.k, ElementsAre(10.0, 0.0, 0.0, 0.0, 0.0, 0.0));
+    EXPECT_LT((bush.axes.col(0) - Vec3(1.0, 2.0, 2.0) / 3.0).norm(), 1e-15);
+  }
+  const auto own =
+      std::get<Spring>(read(nodes + "*ELEMENT,TYPE=SPRING2,ELSET=k\n5,1,3\n*SPRING,ELSET=k,ORIENTATION=o\n2,2\n7.\n"
+                                    "*ORIENTATION,NAME=O\n0.,0.,2.,3.,0.,1.\n3,90.\n")
+                           .model.elements.at(0));
+  // x along z, y along x; then by 90° about the third: y → −x
+  EXPECT_LT((own.axis_a - Vec3(0.0, 0.0, -1.0)).norm(), 1e-15);
+  EXPECT_EQ(own.axis_b, own.axis_a);
+  refused(axial + "-5.\n", "deck.inp:8:1", "a stiffness that is not negative");
+  refused(axial + "10.\n11.,,30.\n", "deck.inp:7", "temperature or frequency");
+  refused(nodes + "*ELEMENT,TYPE=SPRINGA,ELSET=k\n5,1,3\n*SPRING,ELSET=k\n10.\n", "deck.inp:7", "has no length");
+  refused(nodes +
+              "*ELEMENT,TYPE=SPRING2,ELSET=k\n5,1,3\n*SPRING,ELSET=k,ORIENTATION=mont\n2,2\n7.\n*ORIENTATION,"
+              "NAME=mount\n1.,0.,0.,0.,1.,0.\n",
+          "deck.inp:7", "Did you mean 'mount'?");
+  refused(nodes +
+              "*ELEMENT,TYPE=SPRING1,ELSET=k\n5,1\n*SPRING,ELSET=k,ORIENTATION=o\n2\n7.\n*ORIENTATION,"
+              "NAME=o\n1.,0.,0.,2.,0.,0.\n",
+          "deck.inp:11:1", "they fix no axes");
+}
+
 TEST_F(Abaqus, SupportsInTurnedFrames) {
   const std::string text =
       cantilever + "*NSET,NSET=tip\n3\n*TRANSFORM,NSET=tip,TYPE=R\n1.,1.,0.,-1.,1.,0.\n*BOUNDARY\ntip,1\n";
