@@ -85,7 +85,7 @@ class Elimination {
   /// True when the row said something new; `notes` gets what else there is to say.
   bool add(const Model& model, const Row& row, std::vector<ConstraintNote>& notes) {
     const auto note = [&](ConstraintNote::Kind kind, int dof, double figure = 0.0) {
-      notes.push_back({kind, fmt::format("{} {}", row.kind, row.id), {dof / 6, dof % 6}, figure});
+      notes.push_back({kind, link_name(row), {dof / 6, dof % 6}, figure});
     };
     const std::vector<Term> terms = reduced(row.terms);
     if (terms.empty()) {
@@ -119,12 +119,17 @@ class Elimination {
     else if (terms.size() == 1 && moving > 1)
       note(ConstraintNote::Kind::forced_zero, pivot->dof);
     else if (row.dependent >= 0 && expression(row.dependent) != nullptr)
-      note(ConstraintNote::Kind::dependent_twice, row.dependent);
+      notes.push_back({ConstraintNote::Kind::dependent_twice,
+                       fmt::format("{}, dependent already by {}", link_name(row), given_up_by_.at(row.dependent)),
+                       {row.dependent / 6, row.dependent % 6}});
+    given_up_by_.emplace(pivot->dof, link_name(row));
     give_up(pivot->dof, pivot->c, terms);
     return true;
   }
 
  private:
+  static std::string link_name(const Row& row) { return fmt::format("{} {}", row.kind, row.id); }
+
   enum State : char { free, held, dependent };
   static constexpr double digits_of_coefficients = 1e-6;  ///< that eight-column fields keep at least
 
@@ -183,6 +188,7 @@ class Elimination {
   std::unordered_map<int, bool> kept_;
   std::unordered_map<int, std::vector<Term>> expression_;
   std::unordered_map<int, std::vector<int>> users_;
+  std::unordered_map<int, std::string> given_up_by_;  ///< the link that made a dof dependent
 };
 
 std::vector<Row> rows_of(const Model& model) {

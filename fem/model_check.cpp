@@ -39,6 +39,8 @@ std::vector<Finding> check_geometry(const Model& model, const CheckLimits& limit
 
 std::vector<Finding> check_model(const Model& model, const CheckLimits& limits, Structure* assembled) {
   std::vector<Finding> findings = check_geometry(model, limits);
+  checks::check_masses(model, limits, findings);
+  checks::check_supports(model, limits, findings);
   if (faulty_element(findings)) return findings;
   Model free = model;
   free.supports.clear();

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <set>
 
 #include "fem/checks/cells.hpp"
 
@@ -45,6 +46,35 @@ void check_rigid_motions(const Model& model, const CheckLimits& limits, std::vec
 }
 
 }  // namespace
+
+// The link passes the support on, which is exact; programs that eliminate one set after the other refuse the model.
+void checks::check_supports(const Model& model, const CheckLimits& limits, std::vector<Finding>& findings) {
+  std::set<std::pair<int, int>> held;
+  for (const Support& support : model.supports) held.emplace(support.dof.node, support.dof.direction);
+  Places places;
+  const auto look = [&](const Dof& dof, const char* kind, long id) {
+    if (held.contains({dof.node, dof.direction}))
+      places.add(0.0, fmt::format("{} of {} {}", name(model, dof), kind, id));
+  };
+  const auto look_all = [&](int node, Directions directions, const char* kind, long id) {
+    for (int d = 0; d < 6; ++d)
+      if ((directions >> d) & 1U) look({node, d}, kind, id);
+  };
+  for (const RigidLink& link : model.rigid_links) {
+    if (!link.axes.isIdentity(0.0)) continue;  // its directions are no single dofs
+    for (const int node : link.dependents) look_all(node, link.directions, "rigid link", link.id);
+  }
+  for (const AverageLink& link : model.average_links)
+    look_all(link.reference, link.directions, "averaging link", link.id);
+  for (const LinearConstraint& row : model.constraints)
+    if (!row.terms.empty()) look(row.terms.front().dof, "linear constraint", row.id);
+  places.report(findings,
+                {.severity = Severity::warning,
+                 .check = "held_dependents",
+                 .what = "supports on dofs that a link makes dependent: they hold what the link follows as well",
+                 .cure = "Hold the independent node instead, or leave the direction out of the link"},
+                limits.listed);
+}
 
 std::vector<Finding> check_constraints(const Model& model, const DofMap& dofs, const CheckLimits& limits) {
   std::vector<Finding> findings;

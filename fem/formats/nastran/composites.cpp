@@ -33,7 +33,7 @@ void read_composites(Draft& draft, const MaterialIndex& materials, const Orthotr
       card.refuse(1, fmt::format("{} is the number of a PSHELL too", id), "Number properties apart");
     ShellSection s;
     s.name = fmt::format("pcomp {}", id);
-    s.nsm = card.real(3, "NSM", 0.0);
+    s.nsm = card.non_negative(3, "NSM", 0.0);
     const bool sym = symmetric(card);
     if (card.real(7, "GE", 0.0) != 0.0) draft.losses.add("PCOMP GE", "structural damping is no part of K and M");
     long material = 0;

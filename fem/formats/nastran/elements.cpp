@@ -263,6 +263,10 @@ void ElementReader::point_mass(const Card& card) {
   p.node = draft.node(card, 2, "G");
   const long cid = card.integer(3, "CID", 0);
   p.mass = card.real(4, "M", 0.0);
+  if (p.mass < 0.0)  // Nastran takes it; what it trims away may leave M without a definite sign
+    card.fail(4, "M",
+              "a mass that is not negative: with one, modes may have no real frequency; take it off the mass that it "
+              "corrects (the other CONM2 of its grid, NSM, RHO)");
   const Vec3 x(card.real(5, "X1", 0.0), card.real(6, "X2", 0.0), card.real(7, "X3", 0.0));
   const double i11 = card.real(9, "I11", 0.0), i21 = card.real(10, "I21", 0.0), i22 = card.real(11, "I22", 0.0);
   const double i31 = card.real(12, "I31", 0.0), i32 = card.real(13, "I32", 0.0), i33 = card.real(14, "I33", 0.0);

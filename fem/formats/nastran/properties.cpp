@@ -26,6 +26,8 @@ Material elastic(const Card& card) {
   if (!has_nu && has_e && has_g) {
     if (!(m.G > 0.0)) card.fail(3, "G", "a number above zero, or a blank");
     m.nu = m.E / (2.0 * m.G) - 1.0;
+  } else if (has_nu && !(m.nu > -1.0 && m.nu <= 0.5)) {
+    card.fail(4, "NU", "a Poisson's ratio above -1 and at most 0.5, as of every stable isotropic material");
   }
   return m;
 }
@@ -58,7 +60,7 @@ void read_bars(Draft& draft, const MaterialIndex& materials, Properties& propert
     s.Iz = card.non_negative(4, "I1", 0.0);  // plane 1 is the element's x–y plane
     s.Iy = card.non_negative(5, "I2", 0.0);
     s.J = card.non_negative(6, "J", 0.0);
-    s.nsm = card.real(7, "NSM", 0.0);
+    s.nsm = card.non_negative(7, "NSM", 0.0);
     s.kappa_y = card.non_negative(17, "K1", 0.0);
     s.kappa_z = card.non_negative(18, "K2", 0.0);
     s.Iyz = card.real(19, "I12", 0.0);
@@ -131,7 +133,7 @@ void read_shells(Draft& draft, const MaterialIndex& materials, const Orthotropic
     ShellSection s;
     s.name = fmt::format("pshell {}", id);
     s.thickness = card.positive(3, "T");
-    s.nsm = card.real(8, "NSM", 0.0);
+    s.nsm = card.non_negative(8, "NSM", 0.0);
     if (card.blank(4)) {
       s.bending_ratio = s.shear_ratio = 0.0;
       if (!card.blank(6)) card.fail(6, "MID3", "a blank: without MID2 there is no bending to carry the shear");

@@ -241,7 +241,8 @@ TEST(ModelCheck, ConstraintsThatSayTheSameContradictOrNearlyRepeat) {
   model.constraints = {equation(0, 1, 1, -1, 11), equation(0, 1, 2, -1, 12)};  // dependent twice: both hold
   findings = check_model(model);
   ASSERT_TRUE(found(findings, "dependent_twice"));
-  EXPECT_EQ(found(findings, "dependent_twice")->where.front(), "node 1001 ux of linear constraint 12");
+  EXPECT_EQ(found(findings, "dependent_twice")->where.front(),
+            "node 1001 ux of linear constraint 12, dependent already by linear constraint 11");
   EXPECT_FALSE(found(findings, "over_constrained"));
 
   model.constraints = {equation(0, 1, 1, -1, 11), equation(0, 1, 1, -1.0000003, 12)};
@@ -266,6 +267,48 @@ TEST(ModelCheck, ARingOfRigidLinksIsRedundantByNameAndNode) {
   ASSERT_TRUE(found(findings, "redundant_constraints"));
   EXPECT_EQ(found(findings, "redundant_constraints")->count, 6);
   EXPECT_THAT(found(findings, "redundant_constraints")->where.front(), HasSubstr("node 1001 ux of rigid link 23"));
+}
+
+TEST(ModelCheck, TwoRigidLinksWithOneDependentAndALinkThatContradicts) {
+  Model model = plate(2);
+  model.rigid_links = {{0, {1}, all_six, Mat3::Identity(), 31}, {2, {1}, all_six, Mat3::Identity(), 32}};
+  std::vector<Finding> findings = check_model(model);
+  ASSERT_TRUE(found(findings, "dependent_twice"));
+  EXPECT_EQ(found(findings, "dependent_twice")->count, 6);
+  EXPECT_THAT(found(findings, "dependent_twice")->where,
+              testing::Contains("node 1002 ux of rigid link 32, dependent already by rigid link 31"));
+  EXPECT_FALSE(found(findings, "over_constrained"));
+
+  model.rigid_links.resize(1);  // it turns node 1002 with 1001; the equation wants it to turn twice as far
+  model.constraints = {{{{{1, 5}, 1.0}, {{0, 5}, -2.0}}, 33}};
+  findings = check_model(model);
+  ASSERT_TRUE(found(findings, "over_constrained"));
+  EXPECT_EQ(found(findings, "over_constrained")->where.front(), "node 1001 rz of linear constraint 33");
+}
+
+TEST(ModelCheck, SupportsOnDependentDofsAreNamedWithTheirLink) {
+  Model model = plate(2);
+  model.rigid_links = {{0, {1, 2}, 0b000111, Mat3::Identity(), 31}};
+  model.constraints = {{{{{5, 2}, 1.0}, {{4, 2}, -1.0}}, 33}};
+  model.supports = {{{0, 0}}, {{1, 1}}, {{1, 4}}, {{5, 2}}};
+  const std::vector<Finding> findings = check_model(model);
+  const Finding* const held = found(findings, "held_dependents");
+  ASSERT_TRUE(held);
+  EXPECT_THAT(held->where,
+              testing::ElementsAre("node 1002 uy of rigid link 31", "node 1006 uz of linear constraint 33"));
+}
+
+TEST(ModelCheck, InertiasOfNoBodyAreNamed) {
+  Model model = plate(2);
+  model.elements.emplace_back(
+      PointMass{.node = 3, .mass = 2.0, .inertia = Vec3(1.0, 1.0, 2.01).asDiagonal(), .id = 70});
+  EXPECT_FALSE(found(check_model(model), "impossible_inertia"));  // flat, to two digits
+  model.elements.emplace_back(PointMass{.node = 4, .mass = 2.0, .inertia = Vec3(1.0, 5.0, 1.0).asDiagonal(), .id = 71});
+  const std::vector<Finding> findings = check_model(model);
+  ASSERT_TRUE(found(findings, "impossible_inertia"));
+  EXPECT_THAT(found(findings, "impossible_inertia")->where,
+              testing::ElementsAre("point mass 71 at node 1005 (1, 1, 5)"));
+  EXPECT_NEAR(found(findings, "impossible_inertia")->value, 2.5, 1e-12);
 }
 
 TEST(ModelCheck, CoincidentPairsAreThoseOfAllAgainstAll) {

@@ -54,6 +54,11 @@ TEST(NastranElements, MaterialFromAnyTwoConstants) {
   EXPECT_EQ(model.materials[4].E, 0.0);  // G alone
   EXPECT_THAT(refusal("GRID,1\nMAT1,1,,,.3\n"), HasSubstr("MAT1 field E is blank"));
   EXPECT_THAT(refusal("GRID,1\nMAT1,1,-1.,,.3\n"), HasSubstr("not negative"));
+  EXPECT_THAT(refusal("GRID,1\nMAT1,1,1.+7,-4.\n"), HasSubstr("MAT1 field G is '-4.'"));
+  EXPECT_THAT(refusal("GRID,1\nMAT1,1,1.+7,,.3,-1.\n"), HasSubstr("MAT1 field RHO is '-1.'"));
+  for (const char* nu : {".7", "-1.", ".51"})
+    EXPECT_THAT(refusal(fmt::format("GRID,1\nMAT1,1,1.+7,,{}\n", nu)), HasSubstr("MAT1 field NU is"));
+  EXPECT_EQ(read_deck("GRID,1\nMAT1,1,1.+7,,.5\n").model.materials[0].nu, 0.5);
 }
 
 TEST(NastranElements, BarSectionMapsPlaneOneToIz) {
@@ -227,6 +232,17 @@ TEST(NastranElements, PointMassWithOffsetInertiaAndFrame) {
   EXPECT_NEAR(masses[0].inertia(0, 1), -31.0, 1e-13);                 // z′x′ = xy
   EXPECT_LT((masses[1].offset - Vec3(0.5, 0.0, 0.0)).norm(), 1e-15);  // CID −1: position of the centre
   EXPECT_EQ(masses[2].inertia(0, 1), -0.5);
+}
+
+TEST(NastranElements, ImpossibleValuesAreRefusedAtTheirField) {
+  const auto says = [](const std::string& cards) { return refusal(plate_cards + cards); };
+  EXPECT_THAT(says("CONM2,5,1,,-2.\n"), HasSubstr("CONM2 field M is '-2.'"));
+  EXPECT_THAT(says("CONM2,5,1,,-2.\n"), HasSubstr("take it off the mass that it corrects"));
+  EXPECT_THAT(says("PBAR,10,1,-4.,1.,1.\n"), HasSubstr("PBAR field A is '-4.'"));
+  EXPECT_THAT(says("PBAR,10,1,4.,-1.,1.\n"), HasSubstr("PBAR field I1"));
+  EXPECT_THAT(says("PBAR,10,1,4.,1.,1.,1.,-1.\n"), HasSubstr("PBAR field NSM"));
+  EXPECT_THAT(says("PSHELL,10,1,-.1\n"), HasSubstr("PSHELL field T is '-.1'"));
+  EXPECT_THAT(says("PSHELL,10,1,.1,1,,1,,-3.\n"), HasSubstr("PSHELL field NSM"));
 }
 
 TEST(NastranElements, MeshHasBlocksIdsAndSets) {
