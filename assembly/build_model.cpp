@@ -67,27 +67,41 @@ void add_supports(const FeSource& fe, const MeshNodes& nodes, fem::Model& model)
         if (support.directions >> k & 1) model.supports.push_back({{node, k}});
 }
 
+/// The node that a mass or a spring names; `what`: "mass 'tank' sits".
+int selected_node(const NodeSelector& where, const std::string& what, const MeshNodes& nodes, const fem::Model& model) {
+  if (where.kind != NodeSelector::Kind::port) return nodes.single(where);
+  std::vector<std::string> names;
+  for (const fem::Port& port : model.ports) {
+    if (port.name == where.name) return port.node;
+    names.push_back(port.name);
+  }
+  const std::string near = fem::near_miss(where.name, names);
+  throw InputError(
+      where.place, fmt::format("{} on the unknown port '{}'", what, where.name),
+      near.empty() ? fmt::format("Ports are: {}", fmt::join(names, ", ")) : fmt::format("Did you mean '{}'?", near));
+}
+
 void add_masses(const FeSource& fe, const MeshNodes& nodes, fem::Model& model) {
-  for (const SceneNodeMass& mass : fe.masses) {
-    int node = -1;
-    if (mass.where.kind == NodeSelector::Kind::port) {
-      std::vector<std::string> names;
-      for (const fem::Port& port : model.ports) {
-        names.push_back(port.name);
-        if (port.name == mass.where.name) node = port.node;
-      }
-      if (node < 0) {
-        const std::string near = fem::near_miss(mass.where.name, names);
-        throw InputError(mass.where.place,
-                         fmt::format("mass '{}' sits on the unknown port '{}'", mass.name, mass.where.name),
-                         near.empty() ? fmt::format("Ports are: {}", fmt::join(names, ", "))
-                                      : fmt::format("Did you mean '{}'?", near));
-      }
-    } else {
-      node = nodes.single(mass.where);
-    }
+  for (const SceneNodeMass& mass : fe.masses)
     model.elements.push_back(
-        fem::PointMass{.node = node, .mass = mass.mass, .inertia = mass.inertia, .offset = mass.offset});
+        fem::PointMass{.node = selected_node(mass.where, fmt::format("mass '{}' sits", mass.name), nodes, model),
+                       .mass = mass.mass,
+                       .inertia = mass.inertia,
+                       .offset = mass.offset});
+}
+
+void add_springs(const FeSource& fe, const MeshNodes& nodes, fem::Model& model) {
+  for (const SceneSpring& spring : fe.springs) {
+    const std::string what = fmt::format("spring '{}' ends", spring.name);
+    fem::Bush bush{.node_a = selected_node(spring.from, what, nodes, model), .k = spring.k, .axes = spring.axes};
+    if (spring.to) bush.node_b = selected_node(*spring.to, what, nodes, model);
+    if (bush.node_a == bush.node_b)
+      throw InputError(spring.to->place, fmt::format("spring '{}' joins a node to itself", spring.name),
+                       "Name another node, or leave `to` out for a spring to ground");
+    const Vec3& a = fem::position(model, bush.node_a);
+    const Vec3& b = bush.node_b < 0 ? a : fem::position(model, bush.node_b);
+    bush.offset = spring.at.value_or(0.5 * (a + b)) - a;
+    model.elements.push_back(bush);
   }
 }
 
@@ -136,6 +150,7 @@ fem::Model build_model(const SceneBody& body) {
   for (const ScenePort& port : body.ports) model.ports.push_back({port.name, port_node(port, nodes, model), port.axes});
   add_supports(*fe, nodes, model);
   add_masses(*fe, nodes, model);
+  add_springs(*fe, nodes, model);
   return model;
 }
 

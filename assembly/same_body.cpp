@@ -51,14 +51,19 @@ class Text {
   void add(const NodeSelector& n) { (*this)(n.kind, n.point, n.centre, n.node, n.name); }
   void add(const ScenePort& p) { (*this)(p.name, p.where, p.average, p.axes); }
   void add(const SceneSection& s) {
-    (*this)(s.set, s.shape.index(), s.material, s.orientation, s.rotary_inertia, s.offset, s.normal_offset);
+    (*this)(s.set, s.shape.index(), s.material, s.orientation, s.rod, s.rotary_inertia, s.offset, s.normal_offset);
     std::visit([this](const auto& shape) { (*this)(shape); }, s.shape);
   }
   void add(const SceneSupport& s) { (*this)(s.set, s.directions); }
   void add(const SceneNodeMass& m) { (*this)(m.where, m.mass, m.inertia, m.offset); }
+  void add(const SceneSpring& s) {
+    (*this)(s.from, s.to, s.axes, s.at);
+    for (const double k : s.k) (*this)(k);
+  }
   void add(const MatrixFiles& m) { (*this)(m.program, m.K, m.M, m.labels, m.job, m.deck); }
   void add(const FeSource& fe) {
-    (*this)(fe.file, fe.matrices, fe.units, fe.sections, fe.supports, fe.masses, fe.beam_mass, fe.ignore, fe.allow);
+    (*this)(fe.file, fe.matrices, fe.units, fe.sections, fe.supports, fe.masses, fe.springs, fe.beam_mass, fe.ignore,
+            fe.allow);
   }
   void add(const ReducedSource& reduced) { (*this)(reduced.file); }
   void add(const BeamSource& b) { (*this)(b.model, b.from, b.to, b.section, b.elements, b.modes, b.planar); }

@@ -40,6 +40,7 @@ struct SceneSection {
   fem::Material material;
   std::optional<Vec3> orientation;  ///< beams: needed unless the section is round; a laminate's direction 1
   bool round = false;
+  bool rod = false;  ///< bears axial force and torque alone: A and J of the shape
   bool rotary_inertia = true;
   Vec3 offset = Vec3::Zero();  ///< beams [m]
   double normal_offset = 0.0;  ///< shells: from the nodes to the middle surface, along the normal [m]
@@ -58,6 +59,16 @@ struct SceneNodeMass {
   double mass = 0.0;
   Mat3 inertia = Mat3::Zero();
   Vec3 offset = Vec3::Zero();
+};
+
+/// Springs in six directions between two nodes, or from one to ground.
+struct SceneSpring {
+  std::string name;
+  NodeSelector from;
+  std::optional<NodeSelector> to;  ///< absent: ground
+  std::array<double, 6> k{};       ///< along and about `axes` [N/m, N m/rad]
+  Mat3 axes = Mat3::Identity();    ///< columns, body frame
+  std::optional<Vec3> at;          ///< where they act; absent: midway between the nodes [m]
 };
 
 struct RigidSource {
@@ -82,6 +93,7 @@ struct FeSource {
   std::vector<SceneSection> sections;
   std::vector<SceneSupport> supports;
   std::vector<SceneNodeMass> masses;
+  std::vector<SceneSpring> springs;
   std::optional<fem::BeamMass> beam_mass;  ///< absent: high order for meshes, the deck's own for decks
   std::vector<std::string> ignore;         ///< sets that carry no structure
   std::vector<std::string> allow;          ///< losses that may change the physics

@@ -136,6 +136,8 @@ fem::Element make_element(CellType type, const std::array<int, 4>& nodes, long i
                       .id = id,
                       .offset = section.normal_offset,
                       .material_axis = axis};
+  if (section.rod)
+    return fem::Rod{.nodes = {nodes[0], nodes[1]}, .section = shape, .material = material, .mass = beam_mass, .id = id};
   const Vec3 along = model.nodes[static_cast<std::size_t>(nodes[1])] - model.nodes[static_cast<std::size_t>(nodes[0])];
   return fem::Beam{.nodes = {nodes[0], nodes[1]},
                    .section = shape,

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <map>
@@ -119,6 +120,47 @@ SceneReduction read_reduction(const Value& value) {
   return reduction;
 }
 
+SceneSpring read_spring(const Member& entry, const Units& units) {
+  const Value& map = entry.value;
+  const std::string what = fmt::format("spring '{}'", entry.key);
+  const std::vector<std::string> ways{"at", "nearest", "node", "set", "port"};
+  SceneSpring spring{.name = entry.key,
+                     .from = read_selector(*map.find("from"), ways, what, units),
+                     .to = {},
+                     .axes = read_axes(map),
+                     .at = {}};
+  if (const Value* to = map.find("to")) spring.to = read_selector(*to, ways, what, units);
+  if (const Value* at = map.find("at")) spring.at = vector(*at, dimension::length, units);
+  const auto stiffness = [&](const char* key, std::size_t first, const Dimension& unit) {
+    const Value* const value = map.find(key);
+    if (!value) return;
+    const std::vector<double> k = quantities(*value, 3, unit, units);
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (k[i] < 0.0)
+        throw InputError(value->place, fmt::format("{} has a negative stiffness", what), "Give numbers of at least 0");
+      spring.k[first + i] = k[i];
+    }
+  };
+  stiffness("k", 0, {-1, 0, 0, 1});
+  stiffness("kr", 3, {1, 0, 0, 1});
+  if (!map.find("k") && !map.find("kr"))
+    throw InputError(map.place, fmt::format("{} has no stiffness", what), "Add `k: [kx, ky, kz]` or `kr`");
+  return spring;
+}
+
+/// ½ tr(J) − J = ∫ x xᵀ dm has no negative principal value: no moment is above the sum of the other two. Inertias are
+/// known to few digits, and flat bodies lie on the limit: 1 % more passes.
+void require_body(const Value& value, const Mat3& J) {
+  const Eigen::Vector3d moments = Eigen::SelfAdjointEigenSolver<Mat3>(J, Eigen::EigenvaluesOnly).eigenvalues();
+  if (moments[2] <= 1.01 * (moments[0] + moments[1])) return;
+  throw InputError(
+      value.place,
+      fmt::format("no body has the principal moments {:g}, {:g}, {:g} kg m²: the last is more than the sum "
+                  "of the others",
+                  moments[0], moments[1], moments[2]),
+      "Check units and products; a flat body reaches the sum, a thin one has two equal moments");
+}
+
 MatrixFiles read_matrix_files(const Value& map, const std::filesystem::path& folder) {
   using Program = MatrixFiles::Program;
   static const std::map<std::string, Program> programs{{"K", Program::matrix_market},
@@ -127,8 +169,7 @@ MatrixFiles read_matrix_files(const Value& map, const std::filesystem::path& fol
                                                        {"abaqus", Program::abaqus}};
   const auto file = [&](const char* key) {
     const Value* const value = map.find(key);
-    if (!value)
-      throw InputError(map.place, fmt::format("matrices without '{}'", key), "Name K, M and labels together");
+    if (!value) throw InputError(map.place, fmt::format("matrices without '{}'", key), "Name K, M and labels together");
     return folder / value->text;
   };
   const std::string way = one_of(map, {"K", "nastran", "calculix", "abaqus"}, "`matrices`");
@@ -186,6 +227,8 @@ FeSource read_fe(const Member& entry, const std::filesystem::path& folder, const
       if (const Value* offset = mass.value.find("offset")) node_mass.offset = vector(*offset, dimension::length, units);
       fe.masses.push_back(std::move(node_mass));
     }
+  if (const Value* springs = body.find("springs"))
+    for (const Member& spring : springs->members) fe.springs.push_back(read_spring(spring, units));
   if (const Value* mass = body.find("beam_mass"))
     fe.beam_mass = static_cast<fem::BeamMass>(choice(*mass, {"high-order", "consistent", "nastran"}));
   fe.ignore = texts(body.find("ignore"));
@@ -206,17 +249,19 @@ SceneBody read_body(const Member& entry, const std::filesystem::path& folder, co
   const std::string kind = one_of(map, {"rigid", "fe", "matrices", "reduced", "beam"}, what);
 
   if (kind == "rigid") {
-    refuse(map, {"material", "sections", "beam_mass", "fix", "masses", "ignore", "allow", "damping", "reduction"},
+    refuse(map,
+           {"material", "sections", "beam_mass", "fix", "masses", "springs", "ignore", "allow", "damping", "reduction"},
            "a rigid body");
     const Value& rigid = *map.find("rigid");
     RigidSource source{.mass = positive(*rigid.find("mass"), dimension::mass, units, true),
                        .inertia = inertia(*rigid.find("inertia"), units)};
+    require_body(*rigid.find("inertia"), source.inertia);
     if (const Value* com = rigid.find("com")) source.centre = vector(*com, dimension::length, units);
     body.source = source;
   } else if (kind == "fe" || kind == "matrices") {
     body.source = read_fe(entry, folder, materials, units);
   } else if (kind == "beam") {
-    refuse(map, {"material", "sections", "beam_mass", "fix", "masses", "ignore", "allow", "ports"},
+    refuse(map, {"material", "sections", "beam_mass", "fix", "masses", "springs", "ignore", "allow", "ports"},
            "a beam, which says it itself and has the ports P and C");
     const BeamSource beam = read_beam(*map.find("beam"), materials, units);
     body.ports = {{.name = "P", .where = {}, .place = entry.place}, {.name = "C", .where = {}, .place = entry.place}};
@@ -226,7 +271,8 @@ SceneBody read_body(const Member& entry, const std::filesystem::path& folder, co
     body.source = beam;
   } else {
     refuse(map,
-           {"material", "sections", "beam_mass", "fix", "masses", "ignore", "allow", "damping", "reduction", "ports"},
+           {"material", "sections", "beam_mass", "fix", "masses", "springs", "ignore", "allow", "damping", "reduction",
+            "ports"},
            "a reduced body: its file says it");
     body.source = ReducedSource{folder / map.find("reduced")->text};
   }

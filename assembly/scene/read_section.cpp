@@ -145,7 +145,8 @@ SceneSection read_section(const Member& entry, const Value* body_material, const
   const Value& map = entry.value;
   const std::string what = fmt::format("section '{}'", entry.key);
   const Value* material = map.find("material") ? map.find("material") : body_material;
-  const std::string key = one_of(map, {"shell", "laminate", "tube", "circle", "rectangle", "box", "general"}, what);
+  const std::string key =
+      one_of(map, {"shell", "laminate", "tube", "circle", "rectangle", "box", "general", "rod"}, what);
   if (!material && key != "laminate")
     throw InputError(entry.place, fmt::format("{} has no material", what),
                      "Add `material: {E, nu, rho}` or a name (aluminium, steel, titanium) to the section or its body");
@@ -158,6 +159,18 @@ SceneSection read_section(const Member& entry, const Value* body_material, const
   const Value* nsm = map.find("nsm");
   if (key == "shell" || key == "laminate") {
     read_shell(key, map, materials, units, section);
+    return section;
+  }
+
+  if (key == "rod") {
+    refuse(map, {"shear", "orientation", "offset"}, "a rod, which does not bend");
+    const Value& rod = *map.find(key);
+    fem::BeamSection bar{.name = entry.key};
+    bar.A = positive(rod.kind == Value::Kind::map ? *rod.find("A") : rod, dimension::area, units);
+    if (const Value* J = rod.find("J")) bar.J = positive(*J, dimension::second_moment, units, true);
+    if (nsm) bar.nsm = positive(*nsm, dimension::mass_per_length, units, true);
+    section.shape = bar;
+    section.rod = true;
     return section;
   }
 
@@ -190,7 +203,7 @@ BeamSource read_beam(const Value& map, const Materials& materials, const Units& 
     throw InputError(map.find("to")->place, "the beam has no length: `from` and `to` are one point",
                      "Move one of them");
   const Value& section = *map.find("section");
-  refuse(section, {"shell", "laminate", "offset"}, "a beam");
+  refuse(section, {"shell", "laminate", "rod", "offset"}, "a beam");
   beam.section = read_section({"section", section.place, section}, map.find("material"), materials, units);
   const Vec3 axis = (beam.to - beam.from).normalized();
   if (!beam.section.orientation) beam.section.orientation = axis.unitOrthogonal();

@@ -40,6 +40,8 @@ const Schema laminate{"a laminate",
                        {"ply", map, "what plies without a named material are of", false, &ply},
                        {"symmetric", scalar, "true: `plies` lists the lower half"}}};
 
+const Schema rod_section{"a rod", {{"A", scalar, "area", true}, {"J", scalar, "torsion constant; 0 when absent"}}};
+
 const Schema section{
     "a section",
     {{"shell", scalar, "thickness"},
@@ -49,6 +51,7 @@ const Schema section{
      {"rectangle", list, "[b along y, h along z]"},
      {"box", list, "[b along y, h along z, wall thickness], outer sizes"},
      {"general", map, "section constants", false, &general_section},
+     {"rod", scalar | map, "area of a bar that does not bend, or {A, J}", false, &rod_section},
      {"shear", scalar, "timoshenko (default), rayleigh (rotary inertia, no shear) or euler-bernoulli (neither)"},
      {"orientation", list,
       "a vector that spans, with the beam's axis, its x-y plane; of a laminate: its projection is direction 1"},
@@ -78,6 +81,22 @@ const Schema node_mass{"a mass inside a body",
                         {"mass", scalar, "mass", true},
                         {"inertia", list, "about its own centre: three moments or a 3x3 matrix, body axes"},
                         {"offset", list, "from the node to the centre of mass"}}};
+
+const Schema selector{"a node",
+                      {{"at", list, "the node at this point"},
+                       {"set", scalar, "a set of one node"},
+                       {"nearest", list, "the node nearest to this point"},
+                       {"node", scalar, "the file's own node number"},
+                       {"port", scalar, "the node of a port"}}};
+
+const Schema node_spring{"a spring inside a body",
+                         {{"from", map, "the node at one end", true, &selector},
+                          {"to", map, "the node at the other; ground when absent", false, &selector},
+                          {"k", list, "stiffness along x, y, z of its axes"},
+                          {"kr", list, "stiffness about x, y, z of its axes"},
+                          {"at", list, "where it acts; midway between the nodes when absent"},
+                          {"axes", list, "its x, y and z axes in the body frame"},
+                          {"rotate", map, "its axes by a rotation", false, &rotation}}};
 
 const Schema rigid{"a rigid body",
                    {{"mass", scalar, "mass", true},
@@ -113,10 +132,12 @@ const Schema matrices{"matrices",
 const Key one_section{"section", map, "", false, &section};
 const Key one_port{"port", list | map, "", false, &port};
 const Key one_node_mass{"mass", map, "", false, &node_mass};
+const Key one_node_spring{"spring", map, "", false, &node_spring};
 const Key one_support{"support", scalar | list, ""};
 const Schema sections{"sections", {}, &one_section};
 const Schema ports{"ports", {}, &one_port};
 const Schema node_masses{"masses", {}, &one_node_mass};
+const Schema node_springs{"springs", {}, &one_node_spring};
 const Schema supports{"supports", {}, &one_support};
 
 const Schema body{"a body",
@@ -130,6 +151,7 @@ const Schema body{"a body",
                    {"beam_mass", scalar, "high-order (default), consistent or nastran"},
                    {"fix", map, "set -> directions held, e.g. [x, y, rz], or all", false, &supports},
                    {"masses", map, "lumped masses on nodes", false, &node_masses},
+                   {"springs", map, "between two nodes, or from one to ground", false, &node_springs},
                    {"ignore", list, "sets whose cells carry no structure"},
                    {"allow", list, "cards of the file that may be read past although they carry stiffness or mass"},
                    {"ports", map, "where the body can be joined", false, &ports},

@@ -199,6 +199,8 @@ INSTANTIATE_TEST_SUITE_P(
               "Leave it out"},
         Fault{"indefinite_inertia", "[4e5, 3.5e5, 5e5]", "[4e5, -1, 5e5]", "[4e5, -1, 5e5]",
               "negative principal moment", "Check signs"},
+        Fault{"impossible_inertia", "[4e5, 3.5e5, 5e5]", "[4e5, 3.5e5, 9e5]", "[4e5, 3.5e5, 9e5]",
+              "no body has the principal moments 350, 400, 900", "Check units"},
         Fault{"poisson", "nu: 0.2", "nu: 0.7", "0.7", "-1 < nu < 0.5", "Correct it"},
         Fault{"same_name", "  drive:", "  hub:", "hub: {parent", "names a body and a joint", "Rename"},
         Fault{"dotted_name", "  antenna:", "  anten.na:", "anten.na", "is no name", "without dots"}),
