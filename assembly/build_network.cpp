@@ -7,6 +7,7 @@
 #include "assembly/build_beam.hpp"
 #include "assembly/close_angles.hpp"
 #include "assembly/matrix_body.hpp"
+#include "assembly/modal_run.hpp"
 #include "assembly/same_body.hpp"
 #include "reduction/body_file.hpp"
 #include "reduction/large_motion.hpp"
@@ -52,6 +53,8 @@ ReducedBody reduce_fe(const SceneBody& body, const FeSource& fe, const BodyPlan&
     if (options.nonlinear) reduction::add_large_motion(model, structure, reduced);
   }
   reduced.name = body.name;
+  reduced.certificate.source.clear();
+  reduced.certificate.source_hash.clear();
   for (const auto& file : fe.matrices ? files_read(*fe.matrices) : std::vector{fe.file}) {
     const char* const comma = reduced.certificate.source.empty() ? "" : ", ";
     reduced.certificate.source += fmt::format("{}{}", comma, file.filename().string());
@@ -64,7 +67,8 @@ ReducedBody reduce_fe(const SceneBody& body, const FeSource& fe, const BodyPlan&
 }
 
 ReducedBody read_reduced(const SceneBody& body, const ReducedSource& source) {
-  ReducedBody reduced = reduction::read_body(source.file);
+  const bool printed = source.file.extension() == ".f06";
+  ReducedBody reduced = printed ? read_modal_run(source.file) : reduction::read_body(source.file);
   reduced.name = body.name;
   if (body.parent_port.empty()) return reduced;
   const int port = reduction::port_index(reduced, body.parent_port);

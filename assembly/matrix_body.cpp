@@ -61,12 +61,15 @@ std::vector<std::filesystem::path> files_read(const MatrixFiles& files) {
   if (files.program == Program::nastran)
     for (const char* ending : {".op4", ".pch"}) candidates.push_back(fs::path(files.job).replace_extension(ending));
   std::error_code fault;
+  std::vector<fs::path> parts;  // a folder lists its files in no order
   const fs::path folder = files.job.has_parent_path() ? files.job.parent_path() : fs::path(".");
   if (files.program == Program::abaqus)
     for (const auto& entry : fs::directory_iterator(folder, fault))
       for (const char* part : {"_STIF", "_MASS"})
         if (entry.path().filename().string().starts_with(files.job.filename().string() + part))
-          candidates.push_back(entry.path());
+          parts.push_back(entry.path());
+  std::ranges::sort(parts);
+  candidates.insert(candidates.end(), parts.begin(), parts.end());
   std::vector<fs::path> found;
   for (const fs::path& file : candidates)
     if (!file.empty() && fs::is_regular_file(file, fault) && std::ranges::find(found, file) == found.end())

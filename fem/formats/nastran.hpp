@@ -34,6 +34,7 @@ struct NastranDeck {
   Mesh mesh;                        ///< GRIDs and elements; cell sets "pbar 100", point set "boundary"
   Model model;                      ///< its first nodes are those of the mesh, nodes made while reading follow
   std::vector<int> boundary_nodes;  ///< nodes of ASET, ASET1, BSET, BSET1 in the order of the cards
+  std::vector<long> turned_nodes;   ///< GRIDs whose displacement frame CD is not the basic one
   std::string title;                ///< TITLE of the case control
   bool coupled_mass = false;        ///< PARAM,COUPMASS > 0
   double mass_factor = 1.0;         ///< PARAM,WTMASS, already applied

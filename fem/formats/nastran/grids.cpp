@@ -171,7 +171,9 @@ void Geometry::fill() {
       draft_.losses.add("GRID SEID", "superelement of the grid: all are read as one structure");
     const Card& ps = card.blank(7) && defaults_ ? *defaults_ : card;
     draft_.permanent_spc.push_back(ps.components(7, "PS"));
-    draft_.axes.push_back(draft_.frame_at(card, 6, "CD", cd, at));
+    const Mat3 axes = draft_.frame_at(card, 6, "CD", cd, at);
+    if (axes != Mat3::Identity()) draft_.deck.turned_nodes.push_back(card.id(1, "ID"));
+    draft_.axes.push_back(axes);
     draft_.deck.mesh.points.push_back(at);
     draft_.deck.mesh.point_ids.push_back(card.id(1, "ID"));
   }
