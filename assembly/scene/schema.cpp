@@ -142,7 +142,7 @@ const Schema supports{"supports", {}, &one_support};
 
 const Schema body{"a body",
                   {{"rigid", map, "a rigid body", false, &rigid},
-                   {"fe", scalar, "a mesh (.msh, .inp, .vtu) or deck (.bdf, .dat, .inp), relative to the scene"},
+                   {"fe", scalar, "a mesh (.msh, .inp, .vtu, .vtk) or deck (.bdf, .dat, .inp), relative to the scene"},
                    {"matrices", map, "K and M of another program", false, &matrices},
                    {"reduced", scalar, "a *.body.json file, or the .f06 of a clamped modal run, its deck beside it"},
                    {"beam", map, "a straight beam without a mesh", false, &beam},

@@ -9,6 +9,7 @@
 #include "fem/formats/abaqus.hpp"
 #include "fem/formats/extension.hpp"
 #include "fem/formats/gmsh.hpp"
+#include "fem/formats/read_vtk.hpp"
 #include "fem/formats/read_vtu.hpp"
 
 namespace tenon::fem {
@@ -31,14 +32,14 @@ Mesh read_mesh(const std::filesystem::path& path) {
   if (!regular || extension == ".msh" || begins_as_gmsh(path)) return read_gmsh(path);
   if (extension == ".inp") return read_abaqus(path, {.allow_losses = true}).mesh;
   if (extension == ".vtu") return read_vtu(path);
+  if (extension == ".vtk") return read_vtk(path);
   const bool deck = extension == ".bdf" || extension == ".dat" || extension == ".nas";
   throw InputError(
       {path.string()}, fmt::format("'{}' is not a mesh format that is read here", extension),
       deck ? "A Nastran deck is a whole model with its own sections, not a mesh: give it where a deck is asked for"
-           : "Give a Gmsh mesh (.msh, version 2.2 or 4.1), an Abaqus one (.inp) or a VTK grid (.vtu); gmsh converts "
-             "others: gmsh in.unv "
-             "-save -format msh41 -o "
-             "out.msh");
+           : "Give a Gmsh mesh (.msh, version 2.2 or 4.1), an Abaqus one (.inp) or a VTK grid (.vtu, .vtk); gmsh "
+             "converts "
+             "others: gmsh in.unv -save -format msh41 -o out.msh");
 }
 
 }  // namespace tenon::fem

@@ -24,7 +24,7 @@ const CLI::Validator positive(
 void add_info(CLI::App& program, int& status) {
   const auto options = std::make_shared<InfoOptions>();
   CLI::App* command = program.add_subcommand("info", "what a mesh or deck holds, and what was read past");
-  command->add_option("MESH", options->file, "a mesh (.msh, .inp, .vtu) or deck (.bdf, .dat, .inp)")->required();
+  command->add_option("MESH", options->file, "a mesh (.msh, .inp, .vtu, .vtk) or deck (.bdf, .dat, .inp)")->required();
   command->add_flag("--json", options->json, "one JSON object");
   command->footer("Example: tenon info panel.msh");
   command->callback([options, &status] { status = run(*options); });

@@ -115,7 +115,7 @@ std::string inflated(Stream& stream, const Encoding& encoding, std::uint64_t mos
 }
 
 template <class T>
-void append_all(const std::string& bytes, bool swapped, Values& values) {
+void append_all(std::string_view bytes, bool swapped, Values& values) {
   if (bytes.size() % sizeof(T) != 0)
     throw ArrayFault{fmt::format("holds {} bytes, no whole number of values of {}", bytes.size(), sizeof(T)),
                      write_again};
@@ -163,13 +163,8 @@ Values text_values(std::string_view text, std::string_view type) {
   }
 }
 
-Values encoded_values(std::string_view bytes, bool base64, std::string_view type, const Encoding& encoding) {
-  Stream stream(bytes, base64);
-  const std::uint64_t size = type.ends_with("8") ? 1 : type.ends_with("16") ? 2 : type.ends_with("32") ? 4 : 8;
-  const std::string data = encoding.zlib ? inflated(stream, encoding, 100 / 8 * size * encoding.file_bytes)
-                                         : stream.read(words(stream, 1, encoding)[0]);
+Values raw_values(std::string_view data, std::string_view type, bool s) {
   Values values{is_real(type), {}, {}};
-  const bool s = encoding.swapped;
   if (type == "Float64")
     append_all<double>(data, s, values);
   else if (type == "Float32")
@@ -193,6 +188,14 @@ Values encoded_values(std::string_view bytes, bool base64, std::string_view type
   else
     fail_type(type);
   return values;
+}
+
+Values encoded_values(std::string_view bytes, bool base64, std::string_view type, const Encoding& encoding) {
+  Stream stream(bytes, base64);
+  const std::uint64_t size = type.ends_with("8") ? 1 : type.ends_with("16") ? 2 : type.ends_with("32") ? 4 : 8;
+  const std::string data = encoding.zlib ? inflated(stream, encoding, 100 / 8 * size * encoding.file_bytes)
+                                         : stream.read(words(stream, 1, encoding)[0]);
+  return raw_values(data, type, encoding.swapped);
 }
 
 }  // namespace tenon::fem::vtk

@@ -22,13 +22,17 @@ FORMATS = {
     "vtu-zlib": ("vtu", dict(binary=True), 17),
     "vtu-raw": ("vtu", dict(binary=True, compression=None), 17),
     "vtu-wide": ("vtu", dict(binary=True, header_type="UInt64"), 17),
+    "vtk42-ascii": ("vtk42", dict(binary=False), 16),
+    "vtk42-binary": ("vtk42", dict(binary=True), 17),
+    "vtk51-ascii": ("vtk51", dict(binary=False), 16),
+    "vtk51-binary": ("vtk51", dict(binary=True), 17),
     "gmsh22-ascii": ("gmsh22", dict(binary=False), 16),
     "gmsh22-binary": ("gmsh22", dict(binary=True), 17),
     "gmsh41-ascii": ("gmsh", dict(binary=False), 16),
     "gmsh41-binary": ("gmsh", dict(binary=True), 17),
     "abaqus": ("abaqus", dict(), 16),
 }
-ENDINGS = {"vtu": "vtu", "gmsh22": "msh", "gmsh": "msh", "abaqus": "inp"}
+ENDINGS = {"vtu": "vtu", "vtk42": "vtk", "vtk51": "vtk", "gmsh22": "msh", "gmsh": "msh", "abaqus": "inp"}
 
 
 def random_mesh(rng, types, cell_numbers, one_type):
@@ -75,7 +79,7 @@ def main():
             types = [t for t in ABAQUS if t in WIDTHS] if kind == "abaqus" else list(WIDTHS)
             if kind.startswith("gmsh"):
                 types.remove("wedge18")  # which meshio 5.0 writes in VTK's order
-            mesh = random_mesh(rng, types, kind == "vtu", kind == "gmsh")
+            mesh = random_mesh(rng, types, kind.startswith("vt"), kind == "gmsh")
             stem = f"{folder}/{name}-{k}"
             write_truth(f"{stem}.truth", mesh, digits)
             meshio.write(f"{stem}.{ENDINGS[kind]}", mesh, file_format=kind, **options)

@@ -106,5 +106,5 @@ TEST(Meshio, WhatItWritesIsWhatWeRead) {
     compare(fem::read_mesh(entry.path()), read_truth(fs::path(entry.path()).replace_extension(".truth")));
     ++files;
   }
-  EXPECT_EQ(files, 225);
+  EXPECT_EQ(files, 325);
 }

@@ -31,6 +31,7 @@ Family gmsh_cases();
 Family nastran_cases();
 Family scene_cases();
 Family body_cases();
+Family vtk_cases();
 
 /// A word of a text and where it stands.
 struct Word {

@@ -17,8 +17,11 @@ struct Entry {
   Family (*cases)();
   std::size_t least;  ///< so that no case gets lost
 };
-constexpr Entry table[] = {
-    {"gmsh", gmsh_cases, 300}, {"nastran", nastran_cases, 100}, {"scene", scene_cases, 60}, {"body", body_cases, 60}};
+constexpr Entry table[] = {{"gmsh", gmsh_cases, 300},
+                           {"nastran", nastran_cases, 100},
+                           {"scene", scene_cases, 60},
+                           {"body", body_cases, 60},
+                           {"vtk", vtk_cases, 120}};
 
 class BrokenFiles : public testing::TestWithParam<Entry> {};
 
