@@ -142,6 +142,31 @@ constexpr const char* grid = R"(<?xml version="1.0"?>
 </UnstructuredGrid><AppendedData encoding="base64">_EAAAAAAAAAAAAAAAAQAAAAAAAAA=</AppendedData></VTKFile>
 )";
 
+const std::string old_grid = R"(# vtk DataFile Version 4.2
+line
+ASCII
+DATASET UNSTRUCTURED_GRID
+POINTS 2 double
+0 0 0 1 0 0
+CELLS 1 3
+2 0 1
+CELL_TYPES 1
+3
+CELL_DATA 1
+SCALARS part int 1
+LOOKUP_TABLE default
+7
+POINT_DATA 2
+FIELD FieldData 1
+T 1 2 double
+1 2
+)";
+
+const std::string binary_grid =
+    "# vtk DataFile Version 5.1\nline\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS 2 char\n" +
+    std::string("\0\0\0\1\0\0\nCELLS 2 2\nOFFSETS char\n\0\2\nCONNECTIVITY char\n\0\1\n", 54) +
+    std::string("CELL_TYPES 1\n\0\0\0\3\nPOINT_DATA 2\nVECTORS u char\nabcdef\n", 53);
+
 /// Files of matrices, of every kind of OP4.
 void add_matrices(std::vector<Seed>& all) {
   using fem::testing::Layout;
@@ -167,7 +192,11 @@ std::string bytes_of(const fs::path& path) {
 }
 
 std::vector<Seed> seeds() {
-  std::vector<Seed> all{{"small.bdf", deck}, {"frame.inp", abaqus_deck}, {"line.vtu", grid}};
+  std::vector<Seed> all{{"small.bdf", deck},
+                        {"frame.inp", abaqus_deck},
+                        {"line.vtu", grid},
+                        {"old.vtk", old_grid},
+                        {"binary.vtk", binary_grid}};
   add_matrices(all);
   for (const auto& entry : fs::recursive_directory_iterator(fs::path(TENON_SOURCE_DIR) / "data"))
     if (const auto extension = entry.path().extension(); extension == ".msh" || extension == ".yaml")
