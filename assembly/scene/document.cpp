@@ -1,6 +1,7 @@
 #include "assembly/scene/document.hpp"
 
 #include <fmt/format.h>
+#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
@@ -89,6 +90,49 @@ std::vector<std::string> Value::keys() const {
   return names;
 }
 
+namespace {
+
+/// Where the documents of a stream begin, and whether they hold anything.
+struct Documents : YAML::EventHandler {
+  YAML::Mark start;
+  bool empty = true;
+
+  void OnDocumentStart(const YAML::Mark& mark) override {
+    start = mark;
+    empty = true;
+  }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override { empty = false; }
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t, const std::string&) override { empty = false; }
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {
+    empty = false;
+  }
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {
+    empty = false;
+  }
+  void OnMapEnd() override {}
+};
+
+// A stray bracket makes the parser of yaml-cpp 0.7 hand out empty documents without end, all at one place.
+void require_one_document(const std::string& file, const std::string& text) {
+  std::istringstream stream(text);
+  YAML::Parser parser(stream);
+  Documents documents;
+  if (!parser.HandleNextDocument(documents)) return;
+  for (int last = documents.start.pos; parser.HandleNextDocument(documents); last = documents.start.pos) {
+    if (!documents.empty)
+      throw InputError(place_of(file, documents.start), "a second document begins behind `---`",
+                       "Keep one scene a file");
+    if (documents.start.pos == last)
+      throw InputError(place_of(file, documents.start), "this is not YAML: the text here belongs to nothing before it",
+                       "Check indentation and brackets near this place");
+  }
+}
+
+}  // namespace
+
 Value read_document(const std::filesystem::path& path) {
   std::ifstream stream(path, std::ios::binary);
   if (!stream || std::filesystem::is_directory(path))
@@ -96,12 +140,8 @@ Value read_document(const std::filesystem::path& path) {
   std::stringstream text;
   text << stream.rdbuf();
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text.str());
-    for (std::size_t k = 1; k < documents.size(); ++k)
-      if (!documents[k].IsNull())
-        throw InputError(place_of(path.string(), documents[k].Mark()), "a second document begins behind `---`",
-                         "Keep one scene a file");
-    const YAML::Node root = documents.empty() ? YAML::Node() : documents.front();
+    require_one_document(path.string(), text.str());
+    const YAML::Node root = YAML::Load(text.str());
     return Walk(path.string())(root, {path.string(), 1, 1}, 0);
   } catch (const YAML::Exception& fault) {
     throw InputError(place_of(path.string(), fault.mark), fmt::format("this is not YAML: {}", fault.msg),

@@ -117,6 +117,7 @@ Family scene_cases() {
   cases.push_back({"empty", "", {"bad.yaml"}});
   cases.push_back({"comments alone", "# nothing\n", {"bad.yaml"}});
   cases.push_back({"two documents", scene + "---\n" + scene, {"bad.yaml"}});
+  cases.push_back({"a comma first", ",1.\n" + scene, {"bad.yaml:1:1", "belongs to nothing"}});  // once read on for ever
   cases.push_back({"a word", "scene", {"bad.yaml"}});
   for (const std::size_t n : {3U, 12U, 40U, 90U, 130U, 222U, 333U})
     cases.push_back({"cut after " + std::to_string(n), scene.substr(0, n), {"bad.yaml"}});
