@@ -43,7 +43,7 @@ class Text {
     for (const Value& value : values) (*this)(value);
   }
 
-  void add(const Units& u) { (*this)(u.length, u.mass, u.time); }
+  void add(const Units& u) { (*this)(u.length, u.mass, u.time, u.force); }
   void add(const fem::Material& m) { (*this)(m.E, m.G, m.nu, m.rho); }
   void add(const fem::BeamSection& s) { (*this)(s.A, s.Iy, s.Iz, s.Iyz, s.J, s.kappa_y, s.kappa_z, s.nsm); }
   void add(const fem::Ply& p) { (*this)(p.thickness, p.angle, p.E1, p.E2, p.nu12, p.G12, p.G13, p.G23, p.rho); }
