@@ -66,9 +66,9 @@ std::string decoded(std::string_view name) {
   return out;
 }
 
-class Reader {
+class VtkReader {
  public:
-  Reader(std::string_view bytes, const std::string& source) : bytes_(bytes) { mesh_.source = source; }
+  VtkReader(std::string_view bytes, const std::string& source) : bytes_(bytes) { mesh_.source = source; }
   Mesh read();
 
  private:
@@ -100,7 +100,7 @@ class Reader {
   std::size_t n_data_ = 0;
 };
 
-void Reader::fail(const std::string& what, const std::string& cure) const {
+void VtkReader::fail(const std::string& what, const std::string& cure) const {
   const auto before = bytes_.substr(0, start_);
   throw InputError({mesh_.source, 1 + std::ranges::count(before, '\n'),
                     static_cast<long>(before.size() - (before.rfind('\n') + 1)) + 1},
@@ -108,7 +108,7 @@ void Reader::fail(const std::string& what, const std::string& cure) const {
 }
 
 /// What is left of the line; moves behind its end.
-std::string_view Reader::line() {
+std::string_view VtkReader::line() {
   const std::size_t end = std::min(bytes_.find('\n', at_), bytes_.size());
   std::string_view text = bytes_.substr(at_, end - at_);
   at_ = std::min(end + 1, bytes_.size());
@@ -116,7 +116,7 @@ std::string_view Reader::line() {
   return text;
 }
 
-Words Reader::words() {
+Words VtkReader::words() {
   const std::string_view text = line();
   Words out;
   for (std::size_t i = 0; i < text.size();) {
@@ -129,7 +129,7 @@ Words Reader::words() {
 }
 
 /// The words of the next line that has any; false at the end of the file.
-bool Reader::next_section(Words& section) {
+bool VtkReader::next_section(Words& section) {
   while (at_ < bytes_.size() && is_white(bytes_[at_])) ++at_;
   start_ = at_;
   if (at_ == bytes_.size()) return false;
@@ -137,7 +137,7 @@ bool Reader::next_section(Words& section) {
   return true;
 }
 
-std::size_t Reader::number(const Words& section, std::size_t i, const char* meaning) const {
+std::size_t VtkReader::number(const Words& section, std::size_t i, const char* meaning) const {
   const std::string word = i < section.size() ? section[i] : "";
   std::size_t n = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), n);
@@ -149,7 +149,7 @@ std::size_t Reader::number(const Words& section, std::size_t i, const char* mean
   return n;
 }
 
-const Type& Reader::type(const Words& section, std::size_t i) const {
+const Type& VtkReader::type(const Words& section, std::size_t i) const {
   const std::string word = i < section.size() ? section[i] : "";
   const auto found = std::ranges::find(types, upper(word), &Type::legacy);
   if (found == types.end())
@@ -159,7 +159,7 @@ const Type& Reader::type(const Words& section, std::size_t i) const {
   return *found;
 }
 
-Values Reader::values(std::size_t n, const Type& type) {
+Values VtkReader::values(std::size_t n, const Type& type) {
   try {
     if (binary_) {
       if (n > (bytes_.size() - at_) / type.bytes)
@@ -188,7 +188,7 @@ Values Reader::values(std::size_t n, const Type& type) {
   }
 }
 
-void Reader::read_heading() {
+void VtkReader::read_heading() {
   constexpr std::string_view heading = "# vtk DataFile Version ";
   const std::string_view first = line();
   int major = 0, minor = 0;
@@ -212,7 +212,7 @@ void Reader::read_heading() {
 }
 
 /// Up to 4.2 the list [k, node 1, ..., node k] a cell; from 5.1 on ends (one more than cells, 0 first) and nodes.
-void Reader::read_cells(const Words& section) {
+void VtkReader::read_cells(const Words& section) {
   if (has_cells_) fail("found a second section CELLS");
   has_cells_ = true;
   cells_at_ = start_;
@@ -245,7 +245,7 @@ void Reader::read_cells(const Words& section) {
 }
 
 /// Types may come before or after the cells.
-void Reader::add_cells() {
+void VtkReader::add_cells() {
   if (added_) return;
   if (!has_points_ || !has_cells_ || !has_types_)
     fail(fmt::format("the dataset has no {}", !has_points_ ? "POINTS" : !has_cells_ ? "CELLS" : "CELL_TYPES"));
@@ -259,7 +259,7 @@ void Reader::add_cells() {
   start_ = start;
 }
 
-void Reader::read_array(const std::string& name, const Type& type, std::size_t width) {
+void VtkReader::read_array(const std::string& name, const Type& type, std::size_t width) {
   if (data_ < 0) fail(fmt::format("the array '{}' stands before POINT_DATA or CELL_DATA", name));
   if (width == 0 || (n_data_ > 0 && width > bytes_.size() / n_data_))
     fail(fmt::format("the array '{}' declares {} components for {} {}", name, width, n_data_,
@@ -273,7 +273,7 @@ void Reader::read_array(const std::string& name, const Type& type, std::size_t w
 }
 
 /// SCALARS name type [components], then LOOKUP_TABLE name.
-void Reader::read_scalars(const Words& section) {
+void VtkReader::read_scalars(const Words& section) {
   const std::size_t width = section.size() > 3 ? number(section, 3, "a number of components") : 1;
   const std::size_t start = start_;
   Words table;
@@ -283,7 +283,7 @@ void Reader::read_scalars(const Words& section) {
 }
 
 /// FIELD name arrays, each: name components tuples type.
-void Reader::read_fields(const Words& section) {
+void VtkReader::read_fields(const Words& section) {
   const std::size_t n = number(section, 2, "a number of arrays");
   for (std::size_t k = 0; k < n; ++k) {
     Words array;
@@ -316,7 +316,7 @@ void Reader::read_fields(const Words& section) {
   }
 }
 
-void Reader::read_section(const Words& section) {
+void VtkReader::read_section(const Words& section) {
   constexpr std::size_t any = std::numeric_limits<std::size_t>::max();
   struct Attribute {
     std::string_view name;
@@ -377,7 +377,7 @@ void Reader::read_section(const Words& section) {
   }
 }
 
-Mesh Reader::read() {
+Mesh VtkReader::read() {
   read_heading();
   Words section;
   bool dataset = false;
@@ -404,7 +404,7 @@ Mesh Reader::read() {
 
 Mesh parse_vtk(std::string_view bytes, const std::string& source) {
   if (bytes.empty()) throw InputError({source}, "the file is empty", "Save the mesh again");
-  return Reader(bytes, source).read();
+  return VtkReader(bytes, source).read();
 }
 
 Mesh read_vtk(const std::filesystem::path& path) { return parse_vtk(read_bytes(path), path.string()); }

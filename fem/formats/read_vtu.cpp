@@ -17,9 +17,9 @@ namespace {
 
 using vtk::Values;
 
-class Reader {
+class VtuReader {
  public:
-  Reader(std::string_view bytes, const std::string& source) : bytes_(bytes) {
+  VtuReader(std::string_view bytes, const std::string& source) : bytes_(bytes) {
     mesh_.source = source;
     encoding_.file_bytes = bytes.size();
   }
@@ -47,7 +47,7 @@ class Reader {
   vtk::Grid grid_{mesh_};
 };
 
-void Reader::fail(std::ptrdiff_t offset, const std::string& what, const std::string& cure) const {
+void VtuReader::fail(std::ptrdiff_t offset, const std::string& what, const std::string& cure) const {
   const auto before = bytes_.substr(0, static_cast<std::size_t>(std::max<std::ptrdiff_t>(offset, 0)));
   const auto line_start = before.rfind('\n');
   throw InputError({mesh_.source, 1 + std::ranges::count(before, '\n'),
@@ -56,7 +56,7 @@ void Reader::fail(std::ptrdiff_t offset, const std::string& what, const std::str
 }
 
 /// Appended data is no XML: the document ends where it starts.
-pugi::xml_node Reader::load() {
+pugi::xml_node VtuReader::load() {
   std::string text;
   const auto heading = bytes_.find("<AppendedData");
   const auto heading_end = bytes_.find('>', heading == bytes_.npos ? bytes_.size() : heading);
@@ -75,7 +75,7 @@ pugi::xml_node Reader::load() {
   return document_.child("VTKFile");
 }
 
-void Reader::read_heading(pugi::xml_node file) {
+void VtuReader::read_heading(pugi::xml_node file) {
   const std::string type = file.attribute("type").value(),
                     order = file.attribute("byte_order").as_string("LittleEndian"),
                     word = file.attribute("header_type").as_string("UInt32"),
@@ -103,7 +103,7 @@ void Reader::read_heading(pugi::xml_node file) {
   mesh_.format = fmt::format("vtu {}", file.attribute("version").as_string("0.1"));
 }
 
-std::size_t Reader::count(pugi::xml_node node, const char* attribute) const {
+std::size_t VtuReader::count(pugi::xml_node node, const char* attribute) const {
   const std::string text = node.attribute(attribute).value();
   char* end = nullptr;
   const long n = std::strtol(text.c_str(), &end, 10);
@@ -112,7 +112,7 @@ std::size_t Reader::count(pugi::xml_node node, const char* attribute) const {
   return static_cast<std::size_t>(n);
 }
 
-Values Reader::values(pugi::xml_node array) const {
+Values VtuReader::values(pugi::xml_node array) const {
   const std::string format = array.attribute("format").as_string("ascii"), type = array.attribute("type").value();
   try {
     if (format == "ascii") return vtk::text_values(array.text().get(), type);
@@ -130,13 +130,13 @@ Values Reader::values(pugi::xml_node array) const {
   }
 }
 
-pugi::xml_node Reader::named(pugi::xml_node cells, const char* name) const {
+pugi::xml_node VtuReader::named(pugi::xml_node cells, const char* name) const {
   const pugi::xml_node array = cells.find_child_by_attribute("DataArray", "Name", name);
   if (!array) fail(cells, fmt::format("the cells have no array '{}'", name));
   return array;
 }
 
-void Reader::read_cells(pugi::xml_node piece, std::size_t n) {
+void VtuReader::read_cells(pugi::xml_node piece, std::size_t n) {
   const pugi::xml_node cells = piece.child("Cells");
   if (n == 0) return;
   if (!cells) fail(piece, "the piece has no Cells");
@@ -149,7 +149,7 @@ void Reader::read_cells(pugi::xml_node piece, std::size_t n) {
   }
 }
 
-void Reader::read_data(pugi::xml_node group, bool of_cells, std::size_t n) {
+void VtuReader::read_data(pugi::xml_node group, bool of_cells, std::size_t n) {
   for (const pugi::xml_node array : group.children()) {
     const std::string name = array.attribute("Name").value(), type = array.attribute("type").value();
     if (type == "String" || std::string_view(array.name()) != "DataArray") {
@@ -165,7 +165,7 @@ void Reader::read_data(pugi::xml_node group, bool of_cells, std::size_t n) {
   }
 }
 
-void Reader::read_piece(pugi::xml_node piece) {
+void VtuReader::read_piece(pugi::xml_node piece) {
   const std::size_t n = count(piece, "NumberOfPoints"), n_cells = count(piece, "NumberOfCells");
   const pugi::xml_node array = piece.child("Points").child("DataArray");
   if (!array && n > 0) fail(piece, "the piece has no Points");
@@ -180,7 +180,7 @@ void Reader::read_piece(pugi::xml_node piece) {
   read_data(piece.child("CellData"), true, n_cells);
 }
 
-Mesh Reader::read() {
+Mesh VtuReader::read() {
   const pugi::xml_node file = load();
   read_heading(file);
   const auto pieces = file.child("UnstructuredGrid").children("Piece");
@@ -195,7 +195,7 @@ Mesh Reader::read() {
 
 Mesh parse_vtu(std::string_view bytes, const std::string& source) {
   if (bytes.empty()) throw InputError({source}, "the file is empty", "Save the mesh again");
-  return Reader(bytes, source).read();
+  return VtuReader(bytes, source).read();
 }
 
 Mesh read_vtu(const std::filesystem::path& path) { return parse_vtu(read_bytes(path), path.string()); }

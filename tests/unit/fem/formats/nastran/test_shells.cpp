@@ -26,7 +26,7 @@ constexpr const char* quad8 = "CQUAD8,31,5,1,2,3,4,5,6\n,7,8,,,,,,.1\n";
 NastranDeck deck(const std::string& cards) { return read_deck(std::string(grids) + cards); }
 std::string fault(const std::string& cards) { return refusal(std::string(grids) + cards); }
 
-double total_mass(const Model& model) {
+double mass_of_points(const Model& model) {
   double sum = 0.0;
   for (const PointMass& p : elements_of<PointMass>(model)) sum += p.mass;
   return sum;
@@ -55,7 +55,7 @@ TEST(NastranShells, OfEightNodesAreSplit) {
     EXPECT_EQ(q.id, 31);
     EXPECT_EQ(q.offset, 0.1);
   }
-  EXPECT_NEAR(total_mass(d.model), (27.0 + 3.0) * 2.0, 1e-11);
+  EXPECT_NEAR(mass_of_points(d.model), (27.0 + 3.0) * 2.0, 1e-11);
   ASSERT_EQ(d.mesh.cells.size(), 1U);  // the mesh is the file's
   EXPECT_EQ(d.mesh.cells[0].type, CellType::quad8);
   EXPECT_THAT(d.mesh.cells[0].nodes, ElementsAre(0, 1, 2, 3, 4, 5, 6, 7));
@@ -70,7 +70,7 @@ TEST(NastranShells, OfSixNodesAreSplit) {
   EXPECT_EQ(parts[0].nodes, (std::array{0, 4, 8}));
   EXPECT_EQ(parts[3].nodes, (std::array{4, 5, 8}));
   EXPECT_EQ(parts[3].offset, 0.1);
-  EXPECT_NEAR(total_mass(d.model), 30.0, 1e-11);
+  EXPECT_NEAR(mass_of_points(d.model), 30.0, 1e-11);
   EXPECT_EQ(d.mesh.cells.at(0).type, CellType::triangle6);
 }
 
@@ -110,7 +110,7 @@ TEST(NastranShells, OrthotropicSingleLayer) {
   EXPECT_DOUBLE_EQ(usual.plies[0].G23, 3e9);
   EXPECT_EQ(section(mat8 + "PSHELL,5,2,.01,2\n").plies[0].G13, 0.0);                        // no MID3: rigid in shear
   EXPECT_DOUBLE_EQ(section(mat8 + "PSHELL,5,2,.01,2,,1,.5\n").plies[0].G23, 2.8e10 * 0.6);  // of MAT1, TS/T = .6·5/6
-  EXPECT_NEAR(total_mass(deck(mat8 + "PSHELL,5,2,.01,2,,2,,3.\n" + quad).model), (16.0 + 3.0) * 2.0, 1e-11);
+  EXPECT_NEAR(mass_of_points(deck(mat8 + "PSHELL,5,2,.01,2,,2,,3.\n" + quad).model), (16.0 + 3.0) * 2.0, 1e-11);
 
   // [120 20 .; . 50 .; . . 8] GPa: E1 = 120 − 400/50, E2 = 50 − 400/120, ν12 = 20/50
   const std::string mat2 = "MAT2,3,1.2+11,2.+10,,5.+10,,8.+9,1500.\n";
