@@ -1,0 +1,8 @@
+#include "fem/formats/nastran.hpp"
+#include "tests/fuzz/one_reader.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const auto file = tenon::fuzz::file_of(data, size, "bdf");
+  return tenon::fuzz::read_or_refuse(
+      [&] { tenon::fem::read_nastran(file, {.allow_losses = true, .spc_set = {}, .mpc_set = {}}); });
+}

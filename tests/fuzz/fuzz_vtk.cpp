@@ -1,0 +1,7 @@
+#include "fem/formats/read_vtk.hpp"
+#include "tests/fuzz/one_reader.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const auto file = tenon::fuzz::file_of(data, size, "vtk");
+  return tenon::fuzz::read_or_refuse([&] { tenon::fem::read_vtk(file); });
+}
