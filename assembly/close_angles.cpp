@@ -22,7 +22,7 @@ struct PortFrame {
   Vec3 p;
 };
 
-PortFrame frame(const Network& network, const Placement& at, const PortRef& ref) {
+PortFrame closure_frame(const Network& network, const Placement& at, const PortRef& ref) {
   const reduction::BodyPort& port = port_of(network, ref);
   const Mat3& R = at.R[static_cast<std::size_t>(ref.body)];
   return {R * port.axes, at.origin[static_cast<std::size_t>(ref.body)] + R * port.position};
@@ -67,7 +67,8 @@ Gaps gaps(const Network& network, const Placement& at, const std::vector<int>& u
   Gaps g{VectorXd::Zero(rows), MatrixXd::Zero(rows, static_cast<Index>(unknown.size()))};
   for (std::size_t c = 0; c < at.closing_joints.size(); ++c) {
     const Joint& closing = network.joints[static_cast<std::size_t>(at.closing_joints[c])];
-    const PortFrame parent = frame(network, at, closing.parent), child = frame(network, at, closing.child);
+    const PortFrame parent = closure_frame(network, at, closing.parent),
+                    child = closure_frame(network, at, closing.child);
     const Index row = 6 * static_cast<Index>(c);
     g.r.segment<3>(row) = (child.p - parent.p) / at.size;
     g.r.segment<3>(row + 3) = misalignment(closing, parent, child);
@@ -77,7 +78,7 @@ Gaps gaps(const Network& network, const Placement& at, const std::vector<int>& u
       const double side = turns(network, at, closing, unknown[k]);
       if (side == 0.0) continue;
       const Vec3 axis = (outward ? side : -side) * joint_axis(network, at, joint);
-      const PortFrame hinge = frame(network, at, joint.parent);
+      const PortFrame hinge = closure_frame(network, at, joint.parent);
       const auto column = static_cast<Index>(k);
       g.J.col(column).segment<3>(row) = axis.cross((side > 0.0 ? child.p : parent.p) - hinge.p) / at.size;
       const Vec3 a = parent.R * closing.axis, b = child.R * closing.axis;
@@ -125,7 +126,7 @@ Network close_angles(Network network) {
   }
   for (const int j : at.closing_joints) {
     Joint& joint = network.joints[static_cast<std::size_t>(j)];
-    const PortFrame parent = frame(network, at, joint.parent), child = frame(network, at, joint.child);
+    const PortFrame parent = closure_frame(network, at, joint.parent), child = closure_frame(network, at, joint.child);
     const double gap = (child.p - parent.p).norm(), angle = misalignment(joint, parent, child).norm();
     if (gap > 1e-10 * at.size || angle > 1e-10)
       throw ModelError(

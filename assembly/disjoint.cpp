@@ -29,7 +29,7 @@ struct Rows {
   }
 };
 
-struct Builder {
+struct DisjointBuilder {
   const Network& network;
   DisjointSystem& d;
   Index n;
@@ -73,7 +73,7 @@ MatrixXd damping_root(const ReducedBody& body) {
 }
 
 // [D Lᵀ; L 1] in world axes and its root [S 0; L 1], SᵀS = D − LᵀL
-void add_body(const Builder& b, int k, Rows& W, Rows& E, Rows& F) {
+void add_body(const DisjointBuilder& b, int k, Rows& W, Rows& E, Rows& F) {
   const ReducedBody& body = b.body(k);
   const Index o = b.offset(k), m = body.n();
   const Mat6 R6 = fem::rotation6(b.R(k));
@@ -95,7 +95,7 @@ void add_body(const Builder& b, int k, Rows& W, Rows& E, Rows& F) {
 
 // 1 m, 1/length rad and the natural amplitude of each mode. (A mode that stands for a massless direction moves its port
 // many orders more than its neighbours.)
-void scale_body(const Builder& b, int k) {
+void scale_body(const DisjointBuilder& b, int k) {
   const ReducedBody& body = b.body(k);
   const Index o = b.offset(k);
   const double length = natural_length(b.d.placement);
@@ -104,7 +104,7 @@ void scale_body(const Builder& b, int k) {
   b.d.scale.segment(o + 6, body.n()) = natural_amplitudes(body, length);
 }
 
-void add_joint_rows(const Builder& b, const Joint& joint, Rows& G) {
+void add_joint_rows(const DisjointBuilder& b, const Joint& joint, Rows& G) {
   const MatrixXd relative = b.relative(joint);
   const auto label = [&](const char* what, const char* unit) {
     b.name_row(fmt::format("joint '{}', {}", joint.name, what), unit);
@@ -138,7 +138,7 @@ DisjointSystem disjoint(const Network& network) {
   const Index modes = n - 6 * bodies;
   d.M = d.C = d.K = MatrixXd::Zero(n, n);
   d.scale.resize(n);
-  const Builder b{network, d, n};
+  const DisjointBuilder b{network, d, n};
 
   Rows W(n + 6 * static_cast<Index>(network.masses.size()) + joints, n), E(modes + joints, n), F(modes + joints, n);
   for (int k = 0; k < bodies; ++k) {

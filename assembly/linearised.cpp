@@ -22,7 +22,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-std::size_t at(int k) { return static_cast<std::size_t>(k); }
+std::size_t index(int k) { return static_cast<std::size_t>(k); }
 
 // What an input works on or an output reads, 1×nv, and how its axis turns with the motion.
 struct Row {
@@ -31,14 +31,14 @@ struct Row {
   bool translation = false;
 };
 
-struct Rows {
+struct StateRows {
   const Network& network;
   const NetworkMultibody& bodies;
   const SteadyMotion& start;  // at time 0: ports' axes are world axes
   const SteadyMotion& motion;
   Sweeps sweeps, sweeps_start;
 
-  Rows(const Network& net, const NetworkMultibody& mb, const SteadyMotion& first, const SteadyMotion& now)
+  StateRows(const Network& net, const NetworkMultibody& mb, const SteadyMotion& first, const SteadyMotion& now)
       : network(net), bodies(mb), start(first), motion(now), sweeps(make_sweeps(mb.system)), sweeps_start(sweeps) {
     set_state(mb.system, now.state.q, now.state.v, sweeps);
     set_state(mb.system, first.state.q, first.state.v, sweeps_start);
@@ -47,7 +47,7 @@ struct Rows {
   // columns over ξ of a port's displacement and rotation along three axes of the world
   MatrixXd along(const PortRef& port, const Mat3& axes, Vec3& omega) const {
     const Multibody& system = bodies.system;
-    Mat6X Pi = system.bodies[at(port.body)].body->ports[at(port.port)].Phi;
+    Mat6X Pi = system.bodies[index(port.body)].body->ports[index(port.port)].Phi;
     const PortMotion p = port_motion(system, sweeps, motion.state.q, motion.state.v, port, Vec3::Zero(), Pi);
     omega = axes.transpose() * p.V.tail<3>();
     MatrixXd rows(6, system.nv);
@@ -63,8 +63,8 @@ struct Rows {
   }
 
   Row port(const PortRef& named, int direction) const {
-    const PortRef ref{bodies.body[at(named.body)], named.port};
-    const Mat3 axes = sweeps.bodies[at(ref.body)].world.R * sweeps_start.bodies[at(ref.body)].world.R.transpose();
+    const PortRef ref{bodies.body[index(named.body)], named.port};
+    const Mat3 axes = sweeps.bodies[index(ref.body)].world.R * sweeps_start.bodies[index(ref.body)].world.R.transpose();
     Vec3 omega;
     const MatrixXd rows = along(ref, axes, omega);
     Row row{rows.row(direction), {}, direction < 3};
@@ -79,12 +79,12 @@ struct Rows {
   Row joint(int j) const {
     const Multibody& system = bodies.system;
     MatrixXd row = MatrixXd::Zero(1, system.nv);
-    if (const int body = bodies.hinge[at(j)]; body >= 0) {
-      row(0, system.v_offset[at(body)] + system.bodies[at(body)].modes()) = 1.0;
+    if (const int body = bodies.hinge[index(j)]; body >= 0) {
+      row(0, system.v_offset[index(body)] + system.bodies[index(body)].modes()) = 1.0;
     } else {
-      const Closure& c = system.closures[at(bodies.closure[at(j)])];
+      const Closure& c = system.closures[index(bodies.closure[index(j)])];
       Vec3 omega;
-      Mat6X Pi = system.bodies[at(c.inner.body)].body->ports[at(c.inner.port)].Phi;
+      Mat6X Pi = system.bodies[index(c.inner.body)].body->ports[index(c.inner.port)].Phi;
       const PortMotion a = port_motion(system, sweeps, motion.state.q, motion.state.v, c.inner, Vec3::Zero(), Pi);
       const Vec3 axis = a.pose.R * c.inner_axes.col(2);
       row = axis.transpose() * (along(c.outer, Mat3::Identity(), omega).bottomRows<3>() -
@@ -136,7 +136,7 @@ void check_steady(const Network& network, const NetworkMultibody& bodies, const 
         "it",
         "Keep to rates about axes round which everything looks alike, without gravity across them, or use `tenon "
         "simulate`");
-  const Rows first(network, bodies, now, now), second(network, bodies, now, then);
+  const StateRows first(network, bodies, now, now), second(network, bodies, now, then);
   const auto check = [&](const auto& channel, const char* what) {
     const Row p = first.of(channel), q = second.of(channel);
     const MatrixXd size = row_size(p.values);
@@ -153,7 +153,7 @@ void check_steady(const Network& network, const NetworkMultibody& bodies, const 
 }
 
 void set_channels(const Network& network, const NetworkMultibody& bodies, LinearisedNetwork& l) {
-  const Rows rows(network, bodies, l.about, l.about);
+  const StateRows rows(network, bodies, l.about, l.about);
   const Index nv = bodies.system.nv;
   l.B.resize(nv, static_cast<Index>(network.inputs.size()));
   for (std::size_t i = 0; i < network.inputs.size(); ++i)
@@ -259,7 +259,7 @@ LinearisedNetwork linearised(const Network& network, const Simulation& simulatio
   l.coordinates = coordinate_names(system);
   for (std::size_t j = 0; j < network.joints.size(); ++j)
     if (const int k = bodies.hinge[j]; k >= 0 && network.joints[j].kind == JointKind::revolute)
-      l.coordinates[at(system.v_offset[at(k)] + system.bodies[at(k)].modes())] = network.joints[j].name;
+      l.coordinates[index(system.v_offset[index(k)] + system.bodies[index(k)].modes())] = network.joints[j].name;
   l.M = std::move(linear.M);
   l.C = std::move(linear.C);
   l.K = std::move(linear.K);
@@ -302,7 +302,7 @@ LinearisedModes modes(const LinearisedNetwork& l) {
   const auto count = static_cast<Index>(oscillations.size());
   m.omega = m.zeta = VectorXd::Zero(f + count);
   for (Index i = 0; i < count; ++i) {
-    const std::complex<double> pole = oscillations[at(static_cast<int>(i))];
+    const std::complex<double> pole = oscillations[index(static_cast<int>(i))];
     m.omega[f + i] = std::abs(pole);
     m.zeta[f + i] = -pole.real() / std::abs(pole);
   }

@@ -37,7 +37,7 @@ Wiring wiring(Index u, Index y, std::vector<Channel> inputs, std::vector<Channel
           MatrixXd::Zero(z, v), std::move(inputs),    std::move(outputs)};
 }
 
-struct Builder {
+struct PortTreeBuilder {
   const Network& network;
   Placement placement;
   std::vector<Branch> branches;
@@ -93,7 +93,8 @@ std::vector<int> at_joint(const std::vector<Item>& items, int joint) {
 
 // Connects a body with the parts that hang on it: ẍ of each hanging part is that of the port, the wrench it passes and
 // the force −M ẍ of a lumped mass act on the port. What is at P itself adds to the wrench that passes inboard.
-Part Builder::assemble(const Branch& branch, const std::vector<Part>& hanging, const std::vector<int>& inner_ports) {
+Part PortTreeBuilder::assemble(const Branch& branch, const std::vector<Part>& hanging,
+                               const std::vector<int>& inner_ports) {
   const ReducedBody cantilever = hung(body(branch), branch);
   const std::vector<int> own_inputs = at_body(network.inputs, branch.body);
   const std::vector<int> own_outputs = at_body(network.outputs, branch.body);
@@ -201,7 +202,7 @@ namespace {
 
 // A revolute joint seen from its parent. The rotation about the axis (channel 5 of the joint axes) is inverted: the
 // torque passed inboard is −u + k δθ + f δθ̇ + j δθ̈ with δθ̈ = α_child − α_parent, section 2.2 of the TITOP paper.
-Part Builder::through_joint(const Branch& branch, const Part& part) {
+Part PortTreeBuilder::through_joint(const Branch& branch, const Part& part) {
   if (branch.joint < 0) return part;
   const Joint& joint = network.joints[static_cast<std::size_t>(branch.joint)];
   if (joint.kind == JointKind::weld) return part;
@@ -262,7 +263,7 @@ Part Builder::through_joint(const Branch& branch, const Part& part) {
 }  // namespace
 
 PortTree port_tree(const Network& network) {
-  Builder b{network, place(network), {}};
+  PortTreeBuilder b{network, place(network), {}};
   b.reference.resize(network.bodies.size());
   b.branches = spanning_tree(network, b.placement, "port algebra");
   std::vector<std::vector<Part>> hanging(b.branches.size());

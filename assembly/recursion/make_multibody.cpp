@@ -68,13 +68,13 @@ std::vector<bool> tree_joints(const Network& network, const Placement& placement
   return in_tree;
 }
 
-struct Builder {
+struct MultibodyBuilder {
   const Network& network;
   Placement placement;
   NetworkMultibody result;
   std::vector<bool> in_tree, used_ground;
 
-  explicit Builder(const Network& net)
+  explicit MultibodyBuilder(const Network& net)
       : network(net), placement(place(net)), in_tree(tree_joints(net, placement)), used_ground(net.ground.size()) {
     result.body.assign(net.bodies.size(), -1);
     result.hinge.assign(net.joints.size(), -1);
@@ -184,7 +184,7 @@ struct Builder {
 }  // namespace
 
 NetworkMultibody make_multibody(const Network& network) {
-  Builder b(network);
+  MultibodyBuilder b(network);
   std::vector<int> order;
   for (std::size_t g = 0; g < network.ground.size(); ++g) {
     const PortRef& ref = network.ground[g];

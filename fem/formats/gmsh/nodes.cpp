@@ -60,7 +60,7 @@ void read_list(Fields fields, std::int64_t n, bool parametric, Cursor& cursor, C
 
 /// 4.x: blocks by entity. 4.1 gives all numbers of a block, then all positions; 4.0 each node's together.
 template <class Fields>
-void read_blocks(Fields fields, Cursor& cursor, Content& content) {
+void read_node_blocks(Fields fields, Cursor& cursor, Content& content) {
   const bool v41 = content.version > 4.05;
   fields.begin_record(0, 1, "line of counts");
   const std::int64_t blocks = fields.count("the number of entity blocks");
@@ -105,9 +105,9 @@ void read_blocks(Fields fields, Cursor& cursor, Content& content) {
 void read_nodes(Cursor& cursor, Content& content, bool parametric) {
   if (content.version >= 4.0) {
     if (cursor.binary)
-      read_blocks(BinaryFields(cursor), cursor, content);
+      read_node_blocks(BinaryFields(cursor), cursor, content);
     else
-      read_blocks(TextFields(cursor), cursor, content);
+      read_node_blocks(TextFields(cursor), cursor, content);
     return;
   }
   TextFields header(cursor);

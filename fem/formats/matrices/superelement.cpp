@@ -162,7 +162,7 @@ const NamedMatrix& choose(const std::string& file, const std::vector<NamedMatrix
                    "Let EXTSEOUT write the boundary matrices (MATOP4)");
 }
 
-std::string note_on(const std::string& name) {
+std::string note_on_card(const std::string& name) {
   if (name.starts_with("BXX") || name.starts_with("BAA")) return "viscous damping is not read";
   if (name.starts_with("K4")) return "structural damping is not read";
   return "loads and output recovery: no part of K and M";
@@ -215,7 +215,7 @@ MatrixData read_nastran_superelement(const std::string& asm_file) {
   for (const NamedMatrix& matrix : all)
     if (&matrix != &K && &matrix != &M && !matrix.entries.empty())
       data.losses.push_back(
-          {matrix.name, static_cast<long>(matrix.entries.size()), note_on(upper(matrix.name)), false});
+          {matrix.name, static_cast<long>(matrix.entries.size()), note_on_card(upper(matrix.name)), false});
   turn_to_basic(data, cards);
   cards.finish(data);
   return data;
