@@ -94,7 +94,7 @@ TEST_F(GmshFormats, GiveTheSameFrequencies) {
 // MSH 2.2 lists an element once for every physical group that it is in; it is one element all the same.
 TEST_F(GmshFormats, OverlappingGroupsDoNotCountTwice) {
   if (gmsh_is_missing()) GTEST_SKIP() << "Gmsh is not installed";
-  const std::string groups = std::string(part) + "Physical Surface(\"all\") = {1, 2};\n";
+  const std::string groups = fmt::format("{}Physical Surface(\"all\") = {{1, 2}};\n", part);
   const std::string sections = fmt::format("{}, sections: {{floor: {{shell: 0.004}}, wall: {{shell: 0.006}}}}", steel);
   const std::string whole = fmt::format("{}, sections: {{all: {{shell: 0.004}}}}", steel);
   for (const std::string& text : {sections, whole}) {
