@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <exception>
+#include <numeric>
 #include <optional>
+#include <ranges>
 
 #include "fem/constraints.hpp"
 #include "fem/elements/beam.hpp"
@@ -95,22 +97,32 @@ std::vector<char> used_dofs(const Model& model) {
 }
 
 ElementDofs free_dofs(const Model& model, const DofMap& map) {
+  const std::size_t total = model.elements.size();
   ElementDofs elements;
-  elements.start.reserve(model.elements.size() + 1);
-  elements.start.push_back(0);
-  std::vector<int> list;
-  for (const Element& element : model.elements) {
-    const FullDofs dofs = full_dofs(element);
-    list.clear();
-    for (int i = 0; i < dofs.size; ++i) {
-      const auto f = static_cast<std::size_t>(dofs.dof[static_cast<std::size_t>(i)]);
-      for (int t = map.start[f]; t < map.start[f + 1]; ++t) list.push_back(map.terms[static_cast<std::size_t>(t)].free);
+  elements.start.assign(total + 1, 0);
+  std::vector<std::vector<int>> of_thread(static_cast<std::size_t>(omp_get_max_threads()));
+#pragma omp parallel
+  {
+    std::vector<int> mine, list;
+#pragma omp for schedule(static)
+    for (std::size_t e = 0; e < total; ++e) {
+      const FullDofs dofs = full_dofs(model.elements[e]);
+      list.clear();
+      for (int i = 0; i < dofs.size; ++i) {
+        const auto f = static_cast<std::size_t>(dofs.dof[static_cast<std::size_t>(i)]);
+        for (int t = map.start[f]; t < map.start[f + 1]; ++t)
+          list.push_back(map.terms[static_cast<std::size_t>(t)].free);
+      }
+      std::sort(list.begin(), list.end());
+      list.erase(std::unique(list.begin(), list.end()), list.end());
+      mine.insert(mine.end(), list.begin(), list.end());
+      elements.start[e + 1] = static_cast<int>(list.size());
     }
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
-    elements.dofs.insert(elements.dofs.end(), list.begin(), list.end());
-    elements.start.push_back(static_cast<int>(elements.dofs.size()));
+    of_thread[static_cast<std::size_t>(omp_get_thread_num())] = std::move(mine);
   }
+  std::partial_sum(elements.start.begin(), elements.start.end(), elements.start.begin());
+  elements.dofs.reserve(static_cast<std::size_t>(elements.start.back()));
+  for (const auto& dofs : of_thread) elements.dofs.insert(elements.dofs.end(), dofs.begin(), dofs.end());
   return elements;
 }
 
@@ -160,9 +172,6 @@ void transform(const DofMap& map, const FullDofs& dofs, std::span<const int> fre
   out.A.noalias() = out.T.transpose() * out.AT;
 }
 
-/// What the pattern of a growing matrix has no place for.
-using Beside = std::vector<Eigen::Triplet<double>>;
-
 /// A += contribution, lower triangle, in the columns that `owned` chooses.
 template <class Owned>
 void scatter(const Contribution& contribution, std::span<const int> free, LowerTriangle& A, Beside& beside,
@@ -176,10 +185,10 @@ void scatter(const Contribution& contribution, std::span<const int> free, LowerT
       if (value == 0.0) continue;
       const int found = A.position(free[a], j, at);
       if (found < 0) {
-        beside.emplace_back(free[a], j, value);
+        beside[static_cast<std::size_t>(j / columns_of_strip)].emplace_back(free[a], j, value);
         continue;
       }
-      A.value[static_cast<std::size_t>(found)] += value;
+      A.value[found] += value;
       at = found;
     }
   }
@@ -199,7 +208,6 @@ void scatter(const Contribution& contribution, std::span<const int> free, LowerT
 void add_elements(const Model& model, std::span<const Vec3> directors, const DofMap& map, const ElementDofs& elements,
                   ElementMatrices::Matrix ElementMatrices::*part, LowerTriangle& A, Beside& beside) {
   constexpr std::size_t chunk = 512;
-  constexpr int strip = 64;  // columns that go to one thread together
   const std::size_t total = model.elements.size();
   std::vector<Contribution> contributions(std::min(chunk, total));
   std::exception_ptr fault;
@@ -208,7 +216,6 @@ void add_elements(const Model& model, std::span<const Vec3> directors, const Dof
   {
     const int thread = omp_get_thread_num(), threads = omp_get_num_threads();
     ElementMatrices matrices;
-    Beside mine;
     for (std::size_t first = 0; first < total; first += chunk) {
       const std::size_t count = std::min(chunk, total - first);
 #pragma omp for schedule(static)
@@ -228,13 +235,11 @@ void add_elements(const Model& model, std::span<const Vec3> directors, const Dof
       const bool failed = fault != nullptr;  // the same for all: nobody writes it between the two barriers
       if (!failed)
         for (std::size_t i = 0; i < count; ++i)
-          scatter(contributions[i], elements.of(first + i), A, mine,
-                  [=](int j) { return threads == 1 || (j / strip) % threads == thread; });
+          scatter(contributions[i], elements.of(first + i), A, beside,
+                  [=](int j) { return threads == 1 || (j / columns_of_strip) % threads == thread; });
 #pragma omp barrier
       if (failed) break;
     }
-#pragma omp critical(tenon_beside)
-    beside.insert(beside.end(), mine.begin(), mine.end());
   }
   if (fault) rethrow(fault, model.source);
 }
@@ -242,16 +247,21 @@ void add_elements(const Model& model, std::span<const Vec3> directors, const Dof
 /// Rows that got neither stiffness nor mass are taken out (a port's rows stay, so that reduction can say what is
 /// missing).
 void drop_empty_rows(const Model& model, Structure& s) {
-  const Eigen::VectorXd k = s.K.diagonal(), m = s.M.diagonal();
+  const Eigen::VectorXd k = diagonal(s.K), m = diagonal(s.M);
   std::vector<char> is_port(model.nodes.size(), 0);
   for (const Port& port : model.ports) is_port[static_cast<std::size_t>(port.node)] = 1;
-  std::vector<int> kept(static_cast<std::size_t>(s.n()), -1);
   DofMap& map = s.dofs;
+  const auto is_dropped = [&](int i) {
+    return k(i) == 0.0 && m(i) == 0.0 &&
+           is_port[static_cast<std::size_t>(map.free[static_cast<std::size_t>(i)].node)] == 0;
+  };
+  if (std::ranges::none_of(std::views::iota(0, static_cast<int>(s.n())), is_dropped)) return;
+  std::vector<int> kept(static_cast<std::size_t>(s.n()), -1);
   std::vector<Dof> free;
   std::vector<std::string> names;
   for (int i = 0; i < s.n(); ++i) {
     const auto u = static_cast<std::size_t>(i);
-    if (k(i) == 0.0 && m(i) == 0.0 && is_port[static_cast<std::size_t>(map.free[u].node)] == 0) {
+    if (is_dropped(i)) {
       map.unused.push_back(map.free[u]);
       continue;
     }
@@ -260,7 +270,6 @@ void drop_empty_rows(const Model& model, Structure& s) {
     names.push_back(std::move(map.names[u]));
   }
   map.names = std::move(names);
-  if (free.size() == map.free.size()) return;
   std::vector<int> start{0};
   std::vector<DofMap::Term> terms;
   for (std::size_t f = 0; f + 1 < map.start.size(); ++f) {
@@ -327,25 +336,19 @@ Structure assemble(const Model& model) {
   s.dofs = dof_map(model);
   const ElementDofs elements = free_dofs(model, s.dofs);
   const std::vector<Vec3> directors = shell_directors(model);
-  Beside beside;
+  const auto nothing_beside = [&] { return Beside(static_cast<std::size_t>(s.dofs.n_free() / columns_of_strip + 1)); };
   {
     LowerTriangle K = lower_zeros(elements, s.dofs.n_free());
+    Beside beside = nothing_beside();
     add_elements(model, directors, s.dofs, elements, &ElementMatrices::K, K, beside);
-    s.K = without_zeros(std::move(K));
+    s.K = without_zeros(std::move(K), std::move(beside));
   }
   // Mass acts, but for offset points, where stiffness does: it grows in the entries that K has kept. The elements are
   // computed anew for it, which costs less than holding both patterns in full.
-  LowerTriangle M;
-  M.start.assign(s.K.outerIndexPtr(), s.K.outerIndexPtr() + s.K.cols() + 1);
-  M.row.assign(s.K.innerIndexPtr(), s.K.innerIndexPtr() + s.K.nonZeros());
-  M.value.assign(M.row.size(), 0.0);
+  LowerTriangle M = zeros_of_pattern(s.K);
+  Beside beside = nothing_beside();
   add_elements(model, directors, s.dofs, elements, &ElementMatrices::M, M, beside);
-  s.M = without_zeros(std::move(M));
-  if (!beside.empty()) {
-    SparseMatrix rest(s.K.rows(), s.K.cols());
-    rest.setFromTriplets(beside.begin(), beside.end());
-    s.M = SparseMatrix(s.M + rest);
-  }
+  s.M = without_zeros(std::move(M), std::move(beside));
   for (const auto& part : model.matrix_parts) {
     s.K = SparseMatrix(s.K + over_free_dofs(*part, part->K, s.dofs));
     s.M = SparseMatrix(s.M + over_free_dofs(*part, part->M, s.dofs));

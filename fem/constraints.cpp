@@ -273,9 +273,12 @@ DofMap eliminate_constraints(const Model& model, const std::vector<char>& used) 
     }
     free_index[static_cast<std::size_t>(i)] = map.n_free();
     map.free.push_back(dof);
-    map.names.push_back(name(model, dof));
   }
+  map.names.resize(map.free.size());
+#pragma omp parallel for schedule(static)
+  for (std::size_t i = 0; i < map.free.size(); ++i) map.names[i] = name(model, map.free[i]);
   map.start.reserve(static_cast<std::size_t>(n_full) + 1);
+  map.terms.reserve(map.free.size());
   map.start.push_back(0);
   for (int i = 0; i < n_full; ++i) {
     if (const std::vector<Term>* e = elimination.expression(i)) {

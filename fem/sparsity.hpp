@@ -20,17 +20,33 @@ struct ElementDofs {
 
 /// A lower triangle while it grows: column starts, sorted rows, values.
 struct LowerTriangle {
-  std::vector<int> start, row;
-  std::vector<double> value;
+  std::vector<int> start;
+  Eigen::VectorXi row;
+  Eigen::VectorXd value;
 
   /// Index of (i, j), searched from `from` (0: the column's start); −1 where the pattern has no such entry.
   int position(int i, int j, int from = 0) const;
 };
 
+/// Columns that one thread fills together: no two threads write near each other.
+constexpr int columns_of_strip = 64;
+
+/// What the pattern of a growing matrix has no place for: terms of the lower triangle by strips of columns, those of
+/// one entry in the order in which they are added.
+using Beside = std::vector<std::vector<Eigen::Triplet<double>>>;
+
 /// Σ T_eᵀ A_e T_e over n free dofs before anything is added: every entry that an element may fill, with value zero.
+/// Columns are shared among the threads.
 LowerTriangle lower_zeros(const ElementDofs& elements, int n);
 
-/// The entries that are not exactly zero; takes A apart piece by piece, so that both hardly ever stand side by side.
-SparseMatrix without_zeros(LowerTriangle A);
+/// The entries of A's pattern, with value zero.
+LowerTriangle zeros_of_pattern(const SparseMatrix& A);
+
+/// The entries that are not exactly zero, with those beside the pattern; takes A apart piece by piece, so that both
+/// hardly ever stand side by side. Columns are shared among the threads.
+SparseMatrix without_zeros(LowerTriangle A, Beside beside);
+
+/// The diagonal of a lower triangle with sorted rows.
+Eigen::VectorXd diagonal(const SparseMatrix& lower);
 
 }  // namespace tenon::fem
