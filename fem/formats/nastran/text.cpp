@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "fem/formats/nastran/cards.hpp"
 
@@ -59,9 +60,10 @@ std::string_view mark_name(std::string_view mark) {
 /// Refuses what is no text: control characters other than white space.
 void require_text(std::string_view content, const std::string& file) {
   const auto odd = [](char c) { return c >= 0 && c < 32 && !(c >= '\t' && c <= '\r') && c != 26; };
-  bool any = false;  // all bytes in one go: this loop has no branch
-  for (const char c : content) any |= odd(c);
-  if (!any) return;
+  unsigned any = 0;
+#pragma omp simd reduction(| : any)
+  for (std::size_t i = 0; i < content.size(); ++i) any |= odd(content[i]) ? 1U : 0U;
+  if (any == 0) return;
   const auto bad = std::ranges::find_if(content, odd);
   const long line = 1 + std::count(content.begin(), bad, '\n');
   throw InputError({file, line, 0},
@@ -109,6 +111,7 @@ class Reader {
   void bulk_line(std::string_view line, Lines& lines);
   void free_fields(std::string_view line);
   void fixed_fields(std::string_view line);
+  void add_columns(std::string_view line, int width);
   void begin_line(std::string_view name, std::string_view mark, int column);
   void add(std::string_view text, std::size_t column);
   void close_card();
@@ -132,8 +135,8 @@ class Reader {
   std::vector<std::string_view> parts_;  ///< of a line in free fields
   bool superelement_ = false;
   bool card_open_ = false;
-  std::size_t columns_ = 0;  ///< length of the open card's line when its fields stand in columns
-  std::string mark_;         ///< continuation mark that the open card's last line ended with
+  std::string_view columns_;  ///< the open card's line while that is all of it and its fields need no list
+  std::string mark_;          ///< continuation mark that the open card's last line ended with
   bool large_ = false;
 };
 
@@ -306,11 +309,18 @@ void Reader::fixed_fields(std::string_view line) {
   };
   const std::string_view name = trim(part(0, columns_of_name));
   const bool large = !name.empty() && (name.back() == '*' || name.front() == '*');
-  const int width = large ? 16 : 8;
   begin_line(name, trim(part(columns_of_line - 8, 8)), 1);
-  for (int from = columns_of_name; from < columns_of_line - 8; from += width)
-    add(part(from, width), static_cast<std::size_t>(from) + 1);
-  columns_ = !large && line_begin_ == text_.cards.back().begin ? line.size() : 0;
+  if (!large && line_begin_ == text_.cards.back().begin)
+    columns_ = line;
+  else
+    add_columns(line, large ? 16 : 8);
+}
+
+void Reader::add_columns(std::string_view line, int width) {
+  for (int from = columns_of_name; from < columns_of_line - 8; from += width) {
+    const auto at = static_cast<std::size_t>(from);
+    add(at < line.size() ? line.substr(at, static_cast<std::size_t>(width)) : std::string_view{}, at + 1);
+  }
 }
 
 // Opens a card, or goes on with the open one when the name is blank or a continuation mark.
@@ -326,6 +336,11 @@ void Reader::begin_line(std::string_view name, std::string_view mark, int column
           here(column),
           fmt::format("found the continuation '{}', but the card before it ends with the mark '{}'", name, mark_),
           "Put each continuation right behind its card (sorted continuations are not read)");
+    if (!columns_.empty()) {  // the list is made after all, from the card's first line
+      const char* const line = std::exchange(line_begin_, columns_.data());
+      add_columns(std::exchange(columns_, {}), 8);
+      line_begin_ = line;
+    }
     CardSpan& card = text_.cards.back();
     // a line of four large fields is half a line of eight: its other half comes only as another large line
     const std::size_t filled = text_.fields.size() - card.first_field;
@@ -344,7 +359,7 @@ void Reader::begin_line(std::string_view name, std::string_view mark, int column
                            .name = named});
     card_open_ = true;
   }
-  columns_ = 0;
+  columns_ = {};
   large_ = large;
   mark_ = std::string(mark);
 }
@@ -368,14 +383,17 @@ std::uint32_t Reader::name_index(std::string_view name) {
 void Reader::close_card() {
   if (!card_open_) return;
   CardSpan& card = text_.cards.back();
+  card_open_ = false;
+  if (!columns_.empty()) {  // blank fields at the end are none
+    std::string_view filled = columns_.substr(0, columns_of_line - 8);
+    while (white(filled.back())) filled.remove_suffix(1);
+    card.field_count = static_cast<std::uint32_t>((filled.size() - 1) / columns_of_name);
+    card.first_field = columns_.size();
+    card.in_columns = 1;
+    return;
+  }
   while (text_.fields.size() > card.first_field && text_.fields.back().size == 0) text_.fields.pop_back();
   card.field_count = static_cast<std::uint32_t>(text_.fields.size() - card.first_field);
-  if (columns_ > 0) {
-    text_.fields.resize(card.first_field);
-    card.first_field = columns_;
-    card.in_columns = 1;
-  }
-  card_open_ = false;
 }
 
 }  // namespace
