@@ -23,7 +23,7 @@ int add_node(Model& model, const Vec3& x) {
 struct Move {
   Mat3 R;
   Vec3 origin;
-  int node = 0, material = 0, beam_section = 0, shell_section = 0;
+  int node = 0, material = 0, beam_section = 0, shell_section = 0, taper = 0;
 
   Vec3 point(const Vec3& x) const { return R * x + origin; }
 };
@@ -33,6 +33,7 @@ void move(fem::Beam& e, const Move& m) {
   for (Vec3& offset : e.offsets) offset = m.R * offset;
   e.orientation = m.R * e.orientation;
   e.section += m.beam_section;
+  if (e.taper >= 0) e.taper += m.taper;
   e.material += m.material;
 }
 
@@ -126,7 +127,8 @@ int append(Model& whole, const Model& part, const Mat3& R, const Vec3& origin) {
                static_cast<int>(whole.nodes.size()),
                static_cast<int>(whole.materials.size()),
                static_cast<int>(whole.beam_sections.size()),
-               static_cast<int>(whole.shell_sections.size())};
+               static_cast<int>(whole.shell_sections.size()),
+               static_cast<int>(whole.tapers.size())};
   std::vector<char> scalar(part.nodes.size(), 0);
   for (const int node : part.scalar_points) {
     scalar[static_cast<std::size_t>(node)] = 1;
@@ -136,6 +138,10 @@ int append(Model& whole, const Model& part, const Mat3& R, const Vec3& origin) {
   whole.node_ids.insert(whole.node_ids.end(), part.node_ids.begin(), part.node_ids.end());
   whole.materials.insert(whole.materials.end(), part.materials.begin(), part.materials.end());
   whole.beam_sections.insert(whole.beam_sections.end(), part.beam_sections.begin(), part.beam_sections.end());
+  for (std::vector<fem::Station> taper : part.tapers) {
+    for (fem::Station& station : taper) station.section += m.beam_section;
+    whole.tapers.push_back(std::move(taper));
+  }
   whole.shell_sections.insert(whole.shell_sections.end(), part.shell_sections.begin(), part.shell_sections.end());
   for (fem::Element element : part.elements) {
     std::visit(

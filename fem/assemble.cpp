@@ -10,6 +10,7 @@
 #include "fem/constraints.hpp"
 #include "fem/elements/beam.hpp"
 #include "fem/elements/bush.hpp"
+#include "fem/elements/general_beam.hpp"
 #include "fem/elements/point_mass.hpp"
 #include "fem/elements/rod.hpp"
 #include "fem/elements/shell.hpp"
@@ -69,8 +70,9 @@ void element_matrices(const Model& model, std::span<const Vec3> directors, const
   const auto shell = [&](int i) -> const ShellSection& { return model.shell_sections[static_cast<std::size_t>(i)]; };
   std::visit(
       Overloaded{[&](const Beam& e) {
-                   beam_matrices(e, model.beam_sections[static_cast<std::size_t>(e.section)], material(e.material),
-                                 model.nodes, out);
+                   const SectionLine line(model, e);
+                   line.plain() ? beam_matrices(e, line.section(0), material(e.material), model.nodes, out)
+                                : general_beam_matrices(e, line, material(e.material), model.nodes, out);
                  },
                  [&](const Quad4& e) { quad4_matrices(e, shell(e.section), material(e.material), model.nodes, out); },
                  [&](const Tria3& e) {

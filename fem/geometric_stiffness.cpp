@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "fem/elements/beam.hpp"
+#include "fem/elements/general_beam.hpp"
 #include "fem/elements/rod.hpp"
 #include "fem/elements/shell.hpp"
 #include "fem/error.hpp"
@@ -21,8 +22,9 @@ struct GeometricStiffnessOf {
   const ShellSection& shell(int i) const { return model.shell_sections[static_cast<std::size_t>(i)]; }
 
   void operator()(const Beam& e) const {
-    beam_geometric_stiffness(e, model.beam_sections[static_cast<std::size_t>(e.section)], material(e.material),
-                             model.nodes, u, out);
+    const SectionLine line(model, e);
+    line.plain() ? beam_geometric_stiffness(e, line.section(0), material(e.material), model.nodes, u, out)
+                 : general_beam_geometric_stiffness(e, line, material(e.material), model.nodes, u, out);
   }
   void operator()(const Quad4& e) const {
     quad4_geometric_stiffness(e, shell(e.section), material(e.material), model.nodes, u, out);

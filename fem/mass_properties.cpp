@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "fem/elements/beam_frame.hpp"
+#include "fem/elements/section_line.hpp"
 #include "fem/elements/shell_theory.hpp"
 #include "fem/error.hpp"
 #include "fem/structure.hpp"
@@ -33,25 +35,30 @@ struct Moments {
   }
 };
 
-/// A uniform bar: mass along the axis, and the section's rotary inertia about its two bending axes and (unless
-/// Nastran's convention is in force) its own axis.
+/// Mass along the axis, non-structural mass at its own centre, and the section's rotary inertia about its two bending
+/// axes and (unless Nastran's convention is in force) its own axis.
 void add(const Model& model, const Beam& beam, Moments& sum) {
   const Material& material = model.materials[static_cast<std::size_t>(beam.material)];
-  const BeamSection& section = model.beam_sections[static_cast<std::size_t>(beam.section)];
+  const BeamFrame frame(beam, model.nodes);
   const Vec3 a = model.nodes[static_cast<std::size_t>(beam.nodes[0])] + beam.offsets[0];
-  const Vec3 b = model.nodes[static_cast<std::size_t>(beam.nodes[1])] + beam.offsets[1];
-  const double length = (b - a).norm();
-  const double mass = (material.rho * section.A + section.nsm) * length;
-  const double gauss = 0.5 / std::sqrt(3.0);
-  for (const double s : {0.5 - gauss, 0.5 + gauss}) sum.add_point(0.5 * mass, a + s * (b - a));
-  if (beam.mass == BeamMass::nastran) return;
-  const Vec3 x = (b - a) / length;
-  const Vec3 z = x.cross(beam.orientation).normalized(), y = z.cross(x);
-  const double rho_l = material.rho * length;
-  sum.rotary += rho_l * (section.Iy + section.Iz) * x * x.transpose();
-  if (!beam.rotary_inertia) return;
-  sum.rotary += rho_l * (section.Iy * y * y.transpose() + section.Iz * z * z.transpose() -
-                         section.Iyz * (y * z.transpose() + z * y.transpose()));
+  const Vec3 x = frame.R.col(0), y = frame.R.col(1), z = frame.R.col(2);
+  const SectionLine line(model, beam);
+  BeamSection section;
+  constexpr std::array<double, 3> at{0.1127016653792583, 0.5, 0.8872983346207417}, weight{5.0 / 18, 8.0 / 18, 5.0 / 18};
+  for (std::size_t piece = 0; piece < line.pieces(); ++piece)
+    for (std::size_t g = 0; g < at.size(); ++g) {
+      const double from = line.begin(piece), part = line.begin(piece + 1) - from, t = from + at[g] * part;
+      line.at(piece, t, section);
+      const double length = weight[g] * part * frame.h, rho_l = material.rho * length;
+      const Vec3 centroid = a + t * frame.h * x;
+      sum.add_point(rho_l * section.A, centroid);
+      sum.add_point(section.nsm * length, centroid + section.nsm_y * y + section.nsm_z * z);
+      if (beam.mass == BeamMass::nastran) continue;
+      sum.rotary += rho_l * (section.Iy + section.Iz) * x * x.transpose();
+      if (!beam.rotary_inertia) continue;
+      sum.rotary += rho_l * (section.Iy * y * y.transpose() + section.Iz * z * z.transpose() -
+                             section.Iyz * (y * z.transpose() + z * y.transpose()));
+    }
 }
 
 /// The section of a shell as its elements see it.

@@ -33,6 +33,14 @@ struct BeamSection {
   double kappa_y = 0.0;  ///< shear coefficient for forces along y; 0 means rigid in shear (κ → ∞, Euler-Bernoulli)
   double kappa_z = 0.0;  ///< shear coefficient for forces along z
   double nsm = 0.0;      ///< non-structural mass per length [kg/m]
+  double shear_y = 0.0, shear_z = 0.0;  ///< shear centre, from the centroid [m]
+  double nsm_y = 0.0, nsm_z = 0.0;      ///< centre of the non-structural mass, from the centroid [m]
+};
+
+/// A section at a place along a beam.
+struct Station {
+  double at = 0.0;  ///< fraction of the length
+  int section = 0;
 };
 
 /// A layer of a laminate, orthotropic in its axes 1, 2.
@@ -69,9 +77,11 @@ enum class BeamMass { high_order, consistent, nastran };
 struct Beam {
   std::array<int, 2> nodes{};
   int section = 0;
+  int taper = -1;  ///< of Model::tapers: sections along the beam, of which `section` is the first; −1: one throughout
   int material = 0;
   Vec3 orientation = Vec3::UnitZ();  ///< with the axis spans the element's x–y plane (Nastran's v)
-  std::array<Vec3, 2> offsets{Vec3::Zero(), Vec3::Zero()};  ///< from node to beam end, basic frame [m]
+  std::array<Vec3, 2> offsets{Vec3::Zero(),
+                              Vec3::Zero()};  ///< from node to beam end (the section's centroid), basic frame [m]
   BeamMass mass = BeamMass::high_order;
   bool rotary_inertia = true;            ///< of the section in bending; ignored by `nastran`
   std::array<Directions, 2> releases{};  ///< force-free directions of each beam end, element axes (Nastran's pin flags)
@@ -197,6 +207,7 @@ struct Model {
   std::vector<int> scalar_points;  ///< nodes that are one scalar dof (direction 0), without position
   std::vector<Material> materials;
   std::vector<BeamSection> beam_sections;
+  std::vector<std::vector<Station>> tapers;  ///< sections at 0, …, 1 of a beam's length, rising
   std::vector<ShellSection> shell_sections;
   std::vector<Element> elements;
   std::vector<std::shared_ptr<const MatrixPart>> matrix_parts;  ///< given as K and M

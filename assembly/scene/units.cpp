@@ -80,6 +80,7 @@ fem::Model to_si(fem::Model model, const Units& units) {
     for (double* moment : {&section.Iy, &section.Iz, &section.Iyz, &section.J})
       take(*moment, units.to_si(dimension::second_moment));
     take(section.nsm, units.to_si(dimension::mass_per_length));
+    for (double* place : {&section.shear_y, &section.shear_z, &section.nsm_y, &section.nsm_z}) take(*place, length);
   }
   for (fem::ShellSection& section : model.shell_sections) {
     take(section.thickness, length);

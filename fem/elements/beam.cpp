@@ -1,13 +1,10 @@
 #include "fem/elements/beam.hpp"
 
-#include <fmt/format.h>
-
 #include <Eigen/LU>
-#include <limits>
 
 #include "fem/elements/basic_frame.hpp"
+#include "fem/elements/beam_frame.hpp"
 #include "fem/elements/beam_releases.hpp"
-#include "fem/error.hpp"
 
 // The beam in its own axes: x from end 1 to end 2 (length h), y and z of the section. Both bending planes at once:
 //   v = (u_y, u_z), slopes s = (r_z, −r_y), so that s = v' in an unsheared beam.
@@ -100,45 +97,6 @@ void add_bar(Mat12& out, int dof, double diagonal, double coupling) {
 
 Mat2 symmetric(const Mat2& X) { return 0.5 * (X + X.transpose()); }
 
-void refuse(const Beam& beam, const std::string& what, const std::string& cure) {
-  throw ModelError(fmt::format("beam element {}: {}", beam.id, what), cure);
-}
-
-void check(const Beam& beam, const BeamSection& s, const Material& m) {
-  if (!(m.E > 0.0))
-    refuse(beam, fmt::format("Young's modulus of material '{}' is {} Pa", m.name, m.E), "Give a positive one");
-  if (!(s.A > 0.0)) refuse(beam, fmt::format("the area of section '{}' is {} m²", s.name, s.A), "Give a positive one");
-  if (!(s.Iy >= 0.0 && s.Iz >= 0.0 && s.J >= 0.0 && s.Iy * s.Iz - s.Iyz * s.Iyz >= -1e-12 * s.Iy * s.Iz))
-    refuse(beam,
-           fmt::format("section '{}' has second moments no area can have (Iy {}, Iz {}, Iyz {}, J {})", s.name, s.Iy,
-                       s.Iz, s.Iyz, s.J),
-           "They must satisfy Iy, Iz, J >= 0 and Iyz² <= Iy Iz");
-  if (!(s.kappa_y >= 0.0 && s.kappa_z >= 0.0))
-    refuse(beam, fmt::format("section '{}' has a negative shear coefficient", s.name), "Give κ > 0, or 0 for rigid");
-  if (!(m.G > 0.0) && (s.J > 0.0 || s.kappa_y > 0.0 || s.kappa_z > 0.0))
-    refuse(beam, fmt::format("material '{}' has no shear modulus, which its torsion or shear needs", m.name),
-           "Give G, or E and Poisson's ratio");
-  if (!(m.rho >= 0.0 && s.nsm >= 0.0))
-    refuse(beam, fmt::format("negative mass (density {}, non-structural {} kg/m)", m.rho, s.nsm), "Give masses >= 0");
-}
-
-/// Columns x, y, z of the element and its length.
-Mat3 beam_axes(const Beam& beam, const Vec3& end_1, const Vec3& end_2, double& h) {
-  const Vec3 axis = end_2 - end_1;
-  h = axis.norm();
-  if (!(h > 4.0 * std::numeric_limits<double>::epsilon() * (end_1.norm() + end_2.norm())))
-    refuse(beam, "its length is zero (both ends lie at one place, offsets included)",
-           "Delete it, or join the nodes by a rigid link");
-  Mat3 R;
-  R.col(0) = axis / h;
-  const Vec3 z = R.col(0).cross(beam.orientation);
-  if (!(z.norm() > 1e-8 * beam.orientation.norm()))
-    refuse(beam, "its orientation vector is zero or parallel to its axis", "Choose one across the axis");
-  R.col(2) = z.normalized();
-  R.col(1) = R.col(2).cross(R.col(0));
-  return R;
-}
-
 /// Bending and shear of a section over a length h, (1).
 struct ShearBlend {
   Mat2 I, B, P, Q, PQ;  // PQ is 1 − Q, without cancellation
@@ -174,11 +132,9 @@ bool released(const Beam& beam) { return (beam.releases[0] | beam.releases[1]) !
 
 void beam_matrices(const Beam& beam, const BeamSection& section, const Material& material, std::span<const Vec3> nodes,
                    ElementMatrices& out) {
-  check(beam, section, material);
-  const Vec3 end_1 = nodes[static_cast<std::size_t>(beam.nodes[0])] + beam.offsets[0];
-  const Vec3 end_2 = nodes[static_cast<std::size_t>(beam.nodes[1])] + beam.offsets[1];
-  double h = 0.0;
-  const Mat3 R = beam_axes(beam, end_1, end_2, h);
+  check_beam(beam, section, material);
+  const BeamFrame frame(beam, nodes);
+  const auto& [R, h] = frame;
 
   const double rho = material.rho;
   const ShearBlend blend = shear_blend(section, material, h);
@@ -217,7 +173,7 @@ void beam_matrices(const Beam& beam, const BeamSection& section, const Material&
     M = congruent(M, release.T);
   }
 
-  const std::array<Vec3, 2> arms{R.transpose() * beam.offsets[0], R.transpose() * beam.offsets[1]};
+  const std::array<Vec3, 2> arms = frame.arms(beam);
   to_basic_frame<2>(K, R, arms, out.K);
   to_basic_frame<2>(M, R, arms, out.M);
 }
@@ -225,16 +181,12 @@ void beam_matrices(const Beam& beam, const BeamSection& section, const Material&
 void beam_geometric_stiffness(const Beam& beam, const BeamSection& section, const Material& material,
                               std::span<const Vec3> nodes, const Eigen::Ref<const Eigen::VectorXd>& u,
                               ElementMatrices::Matrix& out) {
-  check(beam, section, material);
-  double h = 0.0;
-  const Mat3 R = beam_axes(beam, nodes[static_cast<std::size_t>(beam.nodes[0])] + beam.offsets[0],
-                           nodes[static_cast<std::size_t>(beam.nodes[1])] + beam.offsets[1], h);
+  check_beam(beam, section, material);
+  const BeamFrame frame(beam, nodes);
+  const auto& [R, h] = frame;
   const ShearBlend blend = shear_blend(section, material, h);
   const Mat2& Q = blend.Q;
-  Eigen::Matrix<double, 12, 1> ends;  // displacements of the nodes' rigid arms where the beam hangs, element axes
-  ends << R.transpose() * (u.segment<3>(0) + Vec3(u.segment<3>(3)).cross(beam.offsets[0])),
-      R.transpose() * u.segment<3>(3), R.transpose() * (u.segment<3>(6) + Vec3(u.segment<3>(9)).cross(beam.offsets[1])),
-      R.transpose() * u.segment<3>(9);
+  Eigen::Matrix<double, 12, 1> ends = end_displacements(beam, frame, u);
   Mat12 T;
   if (released(beam)) {
     T = release_ends(beam, joined_stiffness(section, material, blend, h)).T;
@@ -250,7 +202,7 @@ void beam_geometric_stiffness(const Beam& beam, const BeamSection& section, cons
   k.add(LsLs, N / h * Mat2::Identity());
   k.place(K, h);
   if (released(beam)) K = congruent(K, T);
-  const std::array<Vec3, 2> arms{R.transpose() * beam.offsets[0], R.transpose() * beam.offsets[1]};
+  const std::array<Vec3, 2> arms = frame.arms(beam);
   to_basic_frame<2>(K, R, arms, out);
 }
 
