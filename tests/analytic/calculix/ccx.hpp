@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -33,6 +35,18 @@ inline std::vector<double> frequencies(const std::filesystem::path& dat) {
     if (table && words >> mode >> lambda >> omega >> hertz) frequencies.push_back(hertz);
   }
   return frequencies;
+}
+
+/// The ten eigenvalues of a job.eig (*FREQUENCY, STORAGE=YES) in all their digits: after four integers, the last of
+/// them the count.
+inline std::vector<double> stored_eigenvalues(const std::string& bytes) {
+  std::int32_t count = 0;
+  if (bytes.size() < 16 + 80) return {};
+  std::memcpy(&count, bytes.data() + 12, sizeof count);
+  if (count != 10) return {};
+  std::vector<double> values(10);
+  std::memcpy(values.data(), bytes.data() + 16, 80);
+  return values;
 }
 
 }  // namespace tenon::calculix

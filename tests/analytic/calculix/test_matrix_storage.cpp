@@ -4,91 +4,27 @@
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
-#include <cstdint>
-#include <cstdlib>
-#include <cstring>
-#include <map>
-#include <tuple>
 
 #include "fem/error.hpp"
 #include "fem/formats/matrices/calculix.hpp"
+#include "tests/analytic/calculix/block.hpp"
 #include "tests/analytic/calculix/ccx.hpp"
 #include "tests/unit/fem/formats/scratch.hpp"
 
 using namespace tenon;
-using fem::Vec3;
 using fem::testing::Scratch;
-
-namespace {
-
-/// A block of 2×1×4 C3D20R, 2×1×6 mm of steel (t, mm, s), held at z = 0.
-class Block {
- public:
-  Block() {
-    // corners, edge middles below, edge middles above, edge middles between, in half edges
-    constexpr int local[20][3] = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {0, 0, 2}, {2, 0, 2}, {2, 2, 2},
-                                  {0, 2, 2}, {1, 0, 0}, {2, 1, 0}, {1, 2, 0}, {0, 1, 0}, {1, 0, 2}, {2, 1, 2},
-                                  {1, 2, 2}, {0, 1, 2}, {0, 0, 1}, {2, 0, 1}, {2, 2, 1}, {0, 2, 1}};
-    int element = 0;
-    for (int k = 0; k < 4; ++k)
-      for (int i = 0; i < 2; ++i) {
-        elements_ += fmt::format("{}", ++element);
-        for (int l = 0; l < 20; ++l)
-          elements_ +=
-              fmt::format("{}{}", l == 14 ? ",\n" : ",", node(2 * i + local[l][0], local[l][1], 2 * k + local[l][2]));
-        elements_ += '\n';
-      }
-  }
-
-  std::string deck(const char* frequency_option) const {
-    std::string text = "*NODE, NSET=NALL\n", held;
-    for (const auto& [id, x] : positions) {
-      text += fmt::format("{},{:.17g},{:.17g},{:.17g}\n", id, x.x(), x.y(), x.z());
-      if (x.z() == 0.0) held += fmt::format("{},1,3\n", id);
-    }
-    return text + "*ELEMENT, TYPE=C3D20R, ELSET=EALL\n" + elements_ +
-           "*MATERIAL, NAME=STEEL\n*ELASTIC\n210000.,.3\n*DENSITY\n7.8E-9\n*SOLID SECTION, ELSET=EALL, MATERIAL=STEEL\n"
-           "*BOUNDARY\n" +
-           held + "*STEP\n*FREQUENCY, " + frequency_option + "\n10\n*END STEP\n";
-  }
-
-  std::map<long, Vec3> positions;
-
- private:
-  long node(int i, int j, int k) {
-    const auto [entry, added] = ids_.try_emplace({i, j, k}, static_cast<long>(ids_.size()) + 1);
-    if (added) positions[entry->second] = {0.5 * i, 0.5 * j, 0.75 * k};
-    return entry->second;
-  }
-  std::map<std::tuple<int, int, int>, long> ids_;
-  std::string elements_;
-};
-
-/// The ten eigenvalues of a job.eig (*FREQUENCY, STORAGE=YES) in all their digits: after four integers, the last of
-/// them the count.
-std::vector<double> stored_eigenvalues(const std::string& bytes) {
-  std::int32_t count = 0;
-  if (bytes.size() < 16 + 80) return {};
-  std::memcpy(&count, bytes.data() + 12, sizeof count);
-  if (count != 10) return {};
-  std::vector<double> values(10);
-  std::memcpy(values.data(), bytes.data() + 16, 80);
-  return values;
-}
-
-}  // namespace
 
 /// The tolerance asked for is 1e-8 of the frequencies. The files carry 14 digits; CalculiX prints seven of each
 /// frequency, so the comparison takes the doubles of its .eig file.
 TEST(MatrixStorage, GivesCalculixsOwnFrequencies) {
   if (!calculix::installed()) GTEST_SKIP() << "CalculiX (calculix-ccx) is not installed";
   const Scratch folder;
-  const Block block;
+  const calculix::Block block;
   folder.write("part.inp", block.deck("SOLVER=MATRIXSTORAGE"));
   folder.write("own.inp", block.deck("STORAGE=YES"));
   ASSERT_TRUE(calculix::run(folder.file(""), "part")) << fem::testing::contents(folder.file("part.log"));
   ASSERT_TRUE(calculix::run(folder.file(""), "own")) << fem::testing::contents(folder.file("own.log"));
-  const std::vector<double> own = stored_eigenvalues(fem::testing::contents(folder.file("own.eig")));
+  const std::vector<double> own = calculix::stored_eigenvalues(fem::testing::contents(folder.file("own.eig")));
   ASSERT_EQ(own.size(), 10U) << "the .eig file is not laid out as in CalculiX 2.20";
 
   const fem::MatrixData data = fem::read_calculix_matrices(folder.file("part").string(), block.positions);
