@@ -94,16 +94,4 @@ void geometric_stiffness(const GeometricStiffness& stiffening, const Vec3& a, co
   }
 }
 
-void check(const GeometricStiffness& stiffening, const ReducedBody& body) {
-  const Eigen::Index n = body.omega.size();
-  const auto loads = GeometricStiffness::inertia_loads + 6 * static_cast<Eigen::Index>(body.ports.size());
-  const std::string redo = "It is damaged or of another body: compute it again";
-  if (stiffening.K.rows() != (n + 3) * (n + 3) || stiffening.K.cols() != loads)
-    throw ModelError(fmt::format("the geometric stiffness of body '{}' is {}×{} where {}×{} is expected", body.name,
-                                 stiffening.K.rows(), stiffening.K.cols(), (n + 3) * (n + 3), loads),
-                     redo);
-  if (!(stiffening.K.allFinite() && stiffening.spin.allFinite()))
-    throw ModelError(fmt::format("the geometric stiffness of body '{}' is not finite", body.name), redo);
-}
-
 }  // namespace tenon::reduction

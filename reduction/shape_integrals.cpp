@@ -137,22 +137,4 @@ ShapeIntegrals shape_integrals(const fem::Structure& structure, const Eigen::Ref
   return integrals(f);
 }
 
-void check(const ShapeIntegrals& integrals, const ReducedBody& body) {
-  const Eigen::Index n = body.omega.size();
-  const NodeGyroscopics& nodes = integrals.nodes;
-  const bool sizes =
-      integrals.J1.rows() == 6 && integrals.J1.cols() == n && integrals.J2.rows() == 6 * n &&
-      integrals.J2.cols() == n && integrals.C1.rows() == 3 * n && integrals.C1.cols() == n &&
-      (!integrals.has_nodes() ||
-       (nodes.C0.cols() == n && nodes.A.cols() == 3 * n && nodes.T.rows() == 3 * n && nodes.T.cols() == n &&
-        nodes.B.rows() == 3 * n && nodes.B.cols() == n && nodes.U.rows() == n * n && nodes.U.cols() == n));
-  const std::string redo = "They are damaged or of another body: reduce it again";
-  if (!sizes)
-    throw ModelError(fmt::format("the shape integrals of body '{}' do not fit its {} modes", body.name, n), redo);
-  if (!(integrals.J1.allFinite() && integrals.J2.allFinite() && integrals.C1.allFinite() && nodes.J.allFinite() &&
-        nodes.C0.allFinite() && nodes.A.allFinite() && nodes.T.allFinite() && nodes.B.allFinite() &&
-        nodes.U.allFinite()))
-    throw ModelError(fmt::format("a shape integral of body '{}' is not finite", body.name), redo);
-}
-
 }  // namespace tenon::reduction

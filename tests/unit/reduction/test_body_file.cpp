@@ -140,6 +140,9 @@ TEST_F(BodyFile, RefusesWithASentence) {
   EXPECT_THAT(refusal("/kind", "loose"), HasSubstr("'kind' is 'loose'"));
   EXPECT_THAT(refusal("/parent", 5), HasSubstr("parent port"));
   EXPECT_THAT(refusal("/omega_rad_s/0", -3.0), HasSubstr("negative"));
+  // finite numbers whose products are not: no eigenvalue of D − LᵀL, and no pass either
+  EXPECT_THAT(refusal("/L/0", nlohmann::json::array({1e200, 1e200, 1e200, 1e200, 1e200, 1e200})),
+              HasSubstr("its modes carry more mass than it has"));
   EXPECT_THAT(refusal("/D/0/0", "heavy"), HasSubstr("'D[0][0]' is not a finite number"));
   EXPECT_THAT(refusal("/certificate/left_out", 1), HasSubstr("'certificate.left_out' is not a list"));
 }
