@@ -99,7 +99,8 @@ void Reader::file(const fs::path& path, const Place& asked_at) {
   if (!open_.empty() && !fs::is_regular_file(path, error))
     throw InputError(asked_at, fmt::format("the included file '{}' does not exist or is no file", path.string()),
                      "Check the name; it is relative to the deck's folder");
-  const Source& source = text_.files.emplace_back(path.string(), MappedFile(path));
+  text_.files.push_back({path.string(), MappedFile(path)});
+  const Source& source = text_.files.back();
   std::string_view rest = source.pages.bytes();
   if (rest.empty()) throw InputError({source.name}, "the file is empty", "Write it again");
   require_text(rest, source.name);

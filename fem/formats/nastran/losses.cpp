@@ -55,7 +55,8 @@ constexpr std::string_view structural =
 }  // namespace
 
 void classify_rest(Draft& draft) {
-  for (const auto& [name, cards] : draft.cards)
+  for (const auto& [card_name, cards] : draft.cards) {
+    const std::string& name = card_name;  // a lambda of C++20 by clang 14 captures no structured binding
     for (const Card& card : cards) {
       const auto group = std::ranges::find_if(harmless, [&](const Harmless& h) { return listed(h.names, name); });
       if (group != harmless.end())
@@ -66,6 +67,7 @@ void classify_rest(Draft& draft) {
         draft.losses.add_physical(name.empty() ? "a card without a name" : name,
                                   "it is no card that is known here, so what it does cannot be told", card.place());
     }
+  }
   draft.cards.clear();
 }
 

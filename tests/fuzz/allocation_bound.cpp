@@ -1,0 +1,44 @@
+#include "tests/fuzz/allocation_bound.hpp"
+
+#include <sanitizer/allocator_interface.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+
+namespace tenon::fuzz {
+namespace {
+
+constexpr std::int64_t least = 4 << 20, times = 100;
+
+// One thread reads; the hooks must not allocate.
+std::int64_t live = 0, bound = 0;
+bool counting = false;
+
+void allocated(const volatile void*, std::size_t size) {
+  if (!counting || (live += static_cast<std::int64_t>(size)) <= bound) return;
+  counting = false;
+  constexpr std::string_view text = "ERROR: the reader holds more than 100 times the case and 4 MiB\n";
+  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, text.data(), text.size());
+  std::abort();
+}
+
+void freed(const volatile void* memory) {
+  if (counting && memory)
+    live -= static_cast<std::int64_t>(__sanitizer_get_allocated_size(const_cast<const void*>(memory)));
+}
+
+}  // namespace
+
+AllocationBound::AllocationBound(std::size_t case_size) {
+  [[maybe_unused]] static const int installed = __sanitizer_install_malloc_and_free_hooks(allocated, freed);
+  live = 0;
+  bound = std::max(least, times * static_cast<std::int64_t>(case_size));
+  counting = true;
+}
+
+AllocationBound::~AllocationBound() { counting = false; }
+
+}  // namespace tenon::fuzz

@@ -1,0 +1,7 @@
+#include "reduction/body_file.hpp"
+#include "tests/fuzz/one_reader.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const auto file = tenon::fuzz::write("case.body.json", tenon::fuzz::text_of(data, size));
+  return tenon::fuzz::read_or_refuse(size, [&] { tenon::reduction::read_body(file); });
+}
