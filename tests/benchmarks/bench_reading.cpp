@@ -3,43 +3,22 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 #include <fmt/os.h>
-#include <unistd.h>
 
-#include <charconv>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "fem/formats/file_bytes.hpp"
 #include "fem/formats/gmsh.hpp"
 #include "fem/formats/nastran.hpp"
-#include "tests/benchmarks/peak_memory.hpp"
+#include "tests/benchmarks/reading.hpp"
 
 using namespace tenon;
+using benchmarks::ScratchFile;
 
 namespace {
 
 constexpr int side = 1000;  // nodes a side
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-/// A file of this run, removed with it.
-class ScratchFile {
- public:
-  explicit ScratchFile(const char* name)
-      : path_(std::filesystem::temp_directory_path() / fmt::format("tenon-bench-{}-{}", ::getpid(), name)) {}
-  ~ScratchFile() { std::filesystem::remove(path_); }
-  ScratchFile(const ScratchFile&) = delete;
-  ScratchFile& operator=(const ScratchFile&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// A curved sheet.
 template <class Write>
@@ -83,22 +62,6 @@ void write_bdf(const std::filesystem::path& path) {
   out.print("ENDDATA\n");
 }
 
-/// The least that a reader of text can do: every word looked at once as a number.
-double scan_seconds(const std::filesystem::path& path) {
-  const auto start = std::chrono::steady_clock::now();
-  const fem::MappedFile file(path);
-  const char *at = file.bytes().data(), *const end = at + file.bytes().size();
-  double sum = 0.0;
-  while (at != end) {
-    double value = 0.0;
-    const auto [rest, error] = std::from_chars(at, end, value);
-    sum += value;
-    at = rest == at ? at + 1 : rest;
-  }
-  benchmark::DoNotOptimize(sum);
-  return seconds_since(start);
-}
-
 double bytes(const fem::Mesh& mesh) {
   std::size_t n = mesh.points.capacity() * sizeof(fem::Vec3) + mesh.point_ids.capacity() * sizeof(long);
   for (const fem::CellBlock& block : mesh.cells)
@@ -122,11 +85,11 @@ void read_million_nodes(benchmark::State& state, void (*write)(const std::filesy
   const double size = static_cast<double>(std::filesystem::file_size(file.path()));
   double memory = 0.0, seconds = 0.0, scan = 0.0;
   for (auto _ : state) {
-    scan += scan_seconds(file.path());
+    scan += benchmarks::scan_seconds(file.path());
     const benchmarks::PeakMemory peak;
     const auto start = std::chrono::steady_clock::now();
     const auto content = read(file.path());
-    seconds += seconds_since(start);
+    seconds += benchmarks::seconds_since(start);
     memory = std::max(memory, peak.rise() / bytes(content));
   }
   state.counters["of_scan"] = seconds / scan;

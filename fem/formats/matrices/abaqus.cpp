@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <map>
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <unordered_map>
 #include <utility>
 
 #include "fem/error.hpp"
@@ -16,16 +19,39 @@ namespace {
 using matrices::NumberLines;
 using Label = std::pair<long, int>;  ///< node, direction
 
-struct Line {
-  Label row, column;
-  double value = 0.0;
+/// Numbers dofs in the order in which they are met.
+class Numbering {
+ public:
+  /// @param word  0 for rows, 1 for columns: each stays at a node for several lines
+  int operator()(std::size_t word, const Label& label) {
+    auto& [node, numbers] = last_.at(word);
+    if (node != label.first) {
+      numbers = &numbers_[label.first];
+      node = label.first;
+    }
+    int& number = numbers->at(static_cast<std::size_t>(label.second));
+    if (number == 0) {
+      labels_.push_back(label);
+      number = static_cast<int>(labels_.size());
+    }
+    return number - 1;
+  }
+  const std::vector<Label>& labels() const { return labels_; }
+
+ private:
+  using Numbers = std::array<int, 6>;  // from 1 on; 0: not met yet
+  std::unordered_map<long, Numbers> numbers_;
+  std::array<std::pair<long, Numbers*>, 2> last_{};
+  std::vector<Label> labels_;
 };
 
 constexpr double mark_of_support = 1e35;  // Abaqus writes 1e36 on the diagonal of a dof that is held
 
-std::vector<Line> read_lines(const std::filesystem::path& file) {
-  std::vector<Line> all;
-  for (NumberLines lines(file); lines.next();) {
+std::vector<matrices::Entry> read_entries(const std::filesystem::path& file, Numbering& number) {
+  NumberLines lines(file);
+  std::vector<matrices::Entry> all;
+  all.reserve(lines.count());
+  while (lines.next()) {
     if (lines.line().starts_with("**")) continue;
     if (lines.line().starts_with("*"))
       lines.fail(fmt::format("found '{}' in a file of matrix entries", lines.line().substr(0, 40)),
@@ -42,12 +68,11 @@ std::vector<Line> read_lines(const std::filesystem::path& file) {
                    "Leave warping, pressure and temperature out of the model");
       return Label{node, static_cast<int>(dof) - 1};
     };
-    Line line;
-    line.row = label("row node", "row dof");
-    line.column = label("column node", "column dof");
-    line.value = lines.real("a number");
+    const Label row = label("row node", "row dof"), column = label("column node", "column dof");
+    const double value = lines.real("a number");
     lines.end_line();
-    all.push_back(line);
+    const int i = number(0, row);
+    all.emplace_back(i, number(1, column), value);
   }
   if (all.empty())
     throw InputError({file.string()}, "the file holds no matrix entry", "Check that it is the right file");
@@ -57,20 +82,25 @@ std::vector<Line> read_lines(const std::filesystem::path& file) {
 }  // namespace
 
 MatrixData read_abaqus_matrices(const std::filesystem::path& stiffness, const std::filesystem::path& mass) {
-  const std::vector<Line> k = read_lines(stiffness), m = read_lines(mass);
-  std::map<Label, int> index;  // −1: held
-  for (const auto* lines : {&k, &m})
-    for (const Line& line : *lines) index[line.row] = index[line.column] = 0;
+  Numbering number;
+  std::vector<matrices::Entry> k = read_entries(stiffness, number), m = read_entries(mass, number);
+  const std::vector<Label>& labels = number.labels();
+  std::vector<int> row_of(labels.size(), 0);  // −1: held
   long held = 0;
-  for (const Line& line : k)
-    if (line.row == line.column && line.value >= mark_of_support) index[line.row] = -1, ++held;
+  for (const matrices::Entry& e : k)
+    if (int& row = row_of[static_cast<std::size_t>(e.row())];
+        e.row() == e.col() && e.value() >= mark_of_support && row == 0)
+      row = -1, ++held;
 
   MatrixData data;
   data.source = stiffness.string();
-  for (auto& [label, row] : index) {
-    if (row < 0) continue;
-    row = static_cast<int>(data.rows.size());
-    data.rows.push_back({label.first, label.second, false});
+  std::vector<std::size_t> order(labels.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::sort(order, {}, [&](std::size_t i) { return labels[i]; });
+  for (const std::size_t i : order) {
+    if (row_of[i] < 0) continue;
+    row_of[i] = static_cast<int>(data.rows.size());
+    data.rows.push_back({labels[i].first, labels[i].second, false});
   }
   if (data.rows.empty())
     throw InputError({stiffness.string()}, "every dof is held", "Generate the matrices without the supports");
@@ -78,12 +108,10 @@ MatrixData read_abaqus_matrices(const std::filesystem::path& stiffness, const st
     data.losses.push_back(
         {"held dofs", held, "1e36 on the diagonal: they are zero, and their rows are left out", false});
 
-  const auto matrix = [&](const char* name, const std::filesystem::path& file, const std::vector<Line>& lines) {
-    std::vector<matrices::Entry> entries;
-    for (const Line& line : lines) {
-      const int row = index.at(line.row), column = index.at(line.column);
-      if (row >= 0 && column >= 0) entries.emplace_back(row, column, line.value);
-    }
+  const auto matrix = [&](const char* name, const std::filesystem::path& file, std::vector<matrices::Entry>& entries) {
+    const auto row = [&](int i) { return row_of[static_cast<std::size_t>(i)]; };
+    std::erase_if(entries, [&](const matrices::Entry& e) { return row(e.row()) < 0 || row(e.col()) < 0; });
+    for (matrices::Entry& e : entries) e = {row(e.row()), row(e.col()), e.value()};
     return matrices::lower_triangle(name, file.string(), data.rows, std::move(entries), matrices::Stored::either);
   };
   data.K = matrix("the stiffness matrix", stiffness, k);

@@ -48,7 +48,9 @@ SparseMatrix read_matrix(const std::string& name, const std::string& file, const
   const long n = static_cast<long>(rows.size());
   std::vector<Entry> entries;
   std::vector<bool> diagonal(rows.size(), false);
-  for (NumberLines lines(file); lines.next();) {
+  NumberLines lines(file);
+  entries.reserve(lines.count());
+  while (lines.next()) {
     const auto index = [&](const char* what) {
       const long value = lines.integer(what);
       if (value < 1 || value > n)

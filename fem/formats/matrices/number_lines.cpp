@@ -5,23 +5,38 @@
 #include <algorithm>
 
 #include "fem/error.hpp"
-#include "fem/formats/file_bytes.hpp"
 #include "fem/formats/nastran/cards.hpp"
 
 namespace tenon::fem::matrices {
 namespace {
+
 bool separates(char c) { return c == ' ' || c == ',' || c == '\t'; }
+
+constexpr std::size_t piece = 1 << 22;  // bytes after which pages are handed back
+
 }  // namespace
 
-NumberLines::NumberLines(const std::filesystem::path& path) : file_(path.string()), bytes_(read_bytes(path)) {
-  if (bytes_.empty()) throw InputError({file_}, "the file is empty", "Let the program that writes it run to its end");
-  if (bytes_.back() != '\n')
+NumberLines::NumberLines(const std::filesystem::path& path) : file_(path.string()), pages_(path) {
+  rest_ = pages_.bytes();
+  if (rest_.empty()) throw InputError({file_}, "the file is empty", "Let the program that writes it run to its end");
+  if (rest_.back() != '\n')
     throw InputError({file_}, "the last line has no line end, so the file is cut off",
                      "Let the program that writes it run to its end");
-  rest_ = bytes_;
+}
+
+std::size_t NumberLines::count() const {
+  std::size_t lines = 0;
+  for (std::size_t at = 0; at < pages_.bytes().size(); at += piece) {
+    const std::string_view part = pages_.bytes().substr(at, piece);
+    lines += static_cast<std::size_t>(std::ranges::count(part, '\n'));
+    pages_.release(at + part.size());
+  }
+  return lines;
 }
 
 bool NumberLines::next() {
+  if (const std::size_t read = pages_.bytes().size() - rest_.size(); read > handed_back_ + piece)
+    pages_.release(handed_back_ = read);
   while (!rest_.empty()) {
     const std::size_t end = rest_.find('\n');
     start_ = rest_.data();

@@ -4,12 +4,14 @@
 #include <string>
 #include <string_view>
 
+#include "fem/formats/file_bytes.hpp"
+
 namespace tenon::fem::matrices {
 
 /// The words of a text file line by line, parted by blanks or commas.
 class NumberLines {
  public:
-  /// Reads the file. Throws InputError when its last line has no line end: a number there may be cut short.
+  /// Opens the file. Throws InputError when its last line has no line end: a number there may be cut short.
   explicit NumberLines(const std::filesystem::path& path);
   NumberLines(const NumberLines&) = delete;
   NumberLines& operator=(const NumberLines&) = delete;
@@ -26,13 +28,17 @@ class NumberLines {
   void end_line();
 
   const std::string& file() const { return file_; }
+  /// How many lines the file has: no more entries than that, one a line.
+  std::size_t count() const;
   /// Throws InputError at the word read last.
   [[noreturn]] void fail(const std::string& what, const std::string& cure) const;
 
  private:
   [[noreturn]] void fail_expected(std::string_view found, const char* what) const;
 
-  std::string file_, bytes_;
+  std::string file_;
+  MappedFile pages_;
+  std::size_t handed_back_ = 0;
   std::string_view rest_, line_, left_;  ///< of the file, of the line, what is left of it
   long number_ = 0, column_ = 0;
   const char* start_ = nullptr;  ///< of the line

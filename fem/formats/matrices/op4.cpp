@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "fem/error.hpp"
-#include "fem/formats/file_bytes.hpp"
 
 namespace tenon::fem {
 namespace matrices {
@@ -49,16 +48,22 @@ std::string fault_of_header(const NamedMatrix& matrix, std::int64_t type) {
   return {};
 }
 
+void trim_entries(NamedMatrix& matrix) {
+  if (matrix.entries.capacity() > 4 * matrix.entries.size()) matrix.entries.shrink_to_fit();
+}
+
 }  // namespace matrices
 
 std::vector<NamedMatrix> read_op4(const std::filesystem::path& path) {
-  const std::string file = path.string(), bytes = read_bytes(path);
+  const std::string file = path.string();
+  const MappedFile pages(path);
+  const std::string_view bytes = pages.bytes();
   if (bytes.empty()) throw InputError({file}, "the file is empty", "Write it again");
   // a binary file begins with the length of its first record, 24 or 48 bytes
   const auto length_at = [&](std::size_t i) { return bytes[i] == 24 || bytes[i] == 48; };
   const bool binary = bytes.size() >= 4 && bytes[1] == 0 && bytes[2] == 0 &&
                       ((length_at(0) && bytes[3] == 0) || (length_at(3) && bytes[0] == 0));
-  return binary ? matrices::read_op4_binary(file, bytes) : matrices::read_op4_ascii(file, bytes);
+  return binary ? matrices::read_op4_binary(file, pages) : matrices::read_op4_ascii(file, pages);
 }
 
 }  // namespace tenon::fem

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "fem/formats/file_bytes.hpp"
+
 /// Nastran OUTPUT4 files (.op4).
 namespace tenon::fem {
 
@@ -48,8 +50,15 @@ class ColumnFiller {
 /// "" or what is wrong with a header: sizes, form and type (1, 2 real; 3, 4 complex).
 std::string fault_of_header(const NamedMatrix& matrix, std::int64_t type);
 
-std::vector<NamedMatrix> read_op4_ascii(const std::string& file, const std::string& bytes);
-std::vector<NamedMatrix> read_op4_binary(const std::string& file, const std::string& bytes);
+/// Gives back the room that was reserved for all numbers left of the file, where little of it is used: memory that is
+/// not written to costs nothing, but a file may hold many matrices.
+void trim_entries(NamedMatrix& matrix);
+
+std::vector<NamedMatrix> read_op4_ascii(const std::string& file, const MappedFile& pages);
+std::vector<NamedMatrix> read_op4_binary(const std::string& file, const MappedFile& pages);
+
+/// Pages of the file are handed back after so many bytes.
+constexpr std::size_t op4_piece = 1 << 22;
 
 /// From this many rows on, strings of sparse columns have a two-word header whatever the sign of NROW.
 constexpr std::int64_t big_matrix_rows = 65536;

@@ -23,7 +23,7 @@ using nastran::upper;
 
 class AsciiReader {
  public:
-  AsciiReader(const std::string& file, std::string_view bytes) : file_(file), rest_(bytes) {}
+  AsciiReader(const std::string& file, const MappedFile& pages) : file_(file), pages_(pages), rest_(pages.bytes()) {}
 
   std::vector<NamedMatrix> read() {
     std::vector<NamedMatrix> all;
@@ -51,8 +51,15 @@ class AsciiReader {
     ++number_;
     return true;
   }
-  void require_line(const std::string& expected) {
-    if (!next_line()) fail(fmt::format("the file ends where {} was expected", expected));
+  /// @param expected  says what, once it is missing
+  template <class Expected>
+  void require_line(Expected expected) {
+    if (!next_line()) fail(fmt::format("the file ends where {} was expected", expected()));
+  }
+
+  void hand_back() {
+    if (const std::size_t read = pages_.bytes().size() - rest_.size(); read > handed_back_ + op4_piece)
+      pages_.release(handed_back_ = read);
   }
 
   std::string_view part(std::size_t from, std::size_t width) const {
@@ -81,8 +88,10 @@ class AsciiReader {
     const bool big = rows < 0 || matrix.rows >= big_matrix_rows;
     const std::int64_t words_of_number = type == 1 ? 1 : 2;
     ColumnFiller filler(matrix);
+    matrix.entries.reserve(rest_.size() / width_);
     while (true) {
-      require_line(fmt::format("a column of {}", matrix.name));
+      hand_back();
+      require_line([&] { return fmt::format("a column of {}", matrix.name); });
       const std::int64_t column = integer(0, "a column"), row = integer(1, "the first row");
       const std::int64_t count = integer(2, "the length of a column");
       if (column > matrix.columns) break;
@@ -92,7 +101,8 @@ class AsciiReader {
       else
         strings(matrix, filler, big, words_of_number, count);
     }
-    require_line("the number that ends the matrix");
+    require_line([] { return "the number that ends the matrix"; });
+    trim_entries(matrix);
     return matrix;
   }
 
@@ -100,7 +110,7 @@ class AsciiReader {
                std::int64_t words) {
     const std::int64_t header = big ? 1 : 0;  // words that L does not count
     while (words > 0) {
-      require_line(fmt::format("a string of {}", matrix.name));
+      require_line([&] { return fmt::format("a string of {}", matrix.name); });
       std::int64_t length = 0, row = 0;
       if (big) {
         length = integer(0, "the length of a string");
@@ -124,7 +134,7 @@ class AsciiReader {
     std::size_t column = 0;
     for (std::int64_t i = 0; i < count; ++i) {
       if (i % per_line_ == 0) {
-        require_line(fmt::format("{} more numbers", count - i));
+        require_line([&] { return fmt::format("{} more numbers", count - i); });
         column = 0;
       }
       const std::string_view text = trim(part(column, width_));
@@ -164,16 +174,18 @@ class AsciiReader {
   }
 
   const std::string& file_;
+  const MappedFile& pages_;
   std::string_view rest_, line_;
   long number_ = 0;
+  std::size_t handed_back_ = 0;
   std::int64_t per_line_ = 5;
   std::size_t width_ = 16;
 };
 
 }  // namespace
 
-std::vector<NamedMatrix> read_op4_ascii(const std::string& file, const std::string& bytes) {
-  return AsciiReader(file, bytes).read();
+std::vector<NamedMatrix> read_op4_ascii(const std::string& file, const MappedFile& pages) {
+  return AsciiReader(file, pages).read();
 }
 
 }  // namespace tenon::fem::matrices

@@ -17,7 +17,7 @@ namespace {
 
 class BinaryReader {
  public:
-  BinaryReader(const std::string& file, std::string_view bytes) : file_(file), bytes_(bytes) {
+  BinaryReader(const std::string& file, const MappedFile& pages) : file_(file), pages_(pages), bytes_(pages.bytes()) {
     swapped_ = bytes_[0] == 0;  // the length of the first record is 24 or 48
     word_ = bytes_[swapped_ ? 3 : 0] == 48 ? 8 : 4;
   }
@@ -90,8 +90,10 @@ class BinaryReader {
     ColumnFiller filler(matrix);
     const bool big = rows < 0 || matrix.rows >= big_matrix_rows;
     const bool single = type == 1 && word_ == 4;
-    while (column(matrix, filler, big, single)) {
-    }
+    matrix.entries.reserve((bytes_.size() - at_) / (single ? 4 : 8));
+    while (column(matrix, filler, big, single))
+      if (at_ > handed_back_ + op4_piece) pages_.release(handed_back_ = at_);
+    trim_entries(matrix);
     return matrix;
   }
 
@@ -137,16 +139,18 @@ class BinaryReader {
   }
 
   const std::string& file_;
+  const MappedFile& pages_;
   std::string_view bytes_, data_;  ///< the file, and what is left of the record
   std::size_t at_ = 0;             ///< offset of the next record
+  std::size_t handed_back_ = 0;
   std::size_t word_ = 4;
   bool swapped_ = false;  ///< the file's byte order is not this machine's
 };
 
 }  // namespace
 
-std::vector<NamedMatrix> read_op4_binary(const std::string& file, const std::string& bytes) {
-  return BinaryReader(file, bytes).read();
+std::vector<NamedMatrix> read_op4_binary(const std::string& file, const MappedFile& pages) {
+  return BinaryReader(file, pages).read();
 }
 
 }  // namespace tenon::fem::matrices

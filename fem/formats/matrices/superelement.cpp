@@ -151,10 +151,10 @@ std::vector<MatrixRow> rows_of(const std::vector<Connection>& points, const Inte
   return rows;
 }
 
-const NamedMatrix& choose(const std::string& file, const std::vector<NamedMatrix>& all,
-                          std::initializer_list<std::string_view> names) {
+NamedMatrix& choose(const std::string& file, std::vector<NamedMatrix>& all,
+                    std::initializer_list<std::string_view> names) {
   std::string list;
-  for (const NamedMatrix& matrix : all) {
+  for (NamedMatrix& matrix : all) {
     if (std::ranges::find(names, upper(matrix.name)) != names.end()) return matrix;
     list += (list.empty() ? "" : ", ") + matrix.name;
   }
@@ -186,9 +186,9 @@ MatrixData read_nastran_superelement(const std::string& asm_file) {
     return data;
   }
 
-  const std::vector<NamedMatrix> all = read_op4(matrices_file);
-  const NamedMatrix& K = choose(op4_name, all, {"KXX", "KAAX", "KAA"});
-  const NamedMatrix& M = choose(op4_name, all, {"MXX", "MAAX", "MAA"});
+  std::vector<NamedMatrix> all = read_op4(matrices_file);
+  NamedMatrix& K = choose(op4_name, all, {"KXX", "KAAX", "KAA"});
+  NamedMatrix& M = choose(op4_name, all, {"MXX", "MAAX", "MAA"});
   for (const NamedMatrix* m : {&K, &M})
     if (m->rows != m->columns || m->rows != K.rows)
       throw InputError({op4_name},
@@ -210,8 +210,8 @@ MatrixData read_nastran_superelement(const std::string& asm_file) {
         fmt::format("the description gives {} rows, but {} of {} has {}", data.rows.size(), K.name, op4_name, K.rows),
         "Take the description and the matrices of one run; where a grid has fewer than six components, keep "
         "the .pch beside the .asm");
-  data.K = lower_triangle(K.name, op4_name, data.rows, K.entries, Stored::both);
-  data.M = lower_triangle(M.name, op4_name, data.rows, M.entries, Stored::both);
+  data.K = lower_triangle(K.name, op4_name, data.rows, std::move(K.entries), Stored::both);
+  data.M = lower_triangle(M.name, op4_name, data.rows, std::move(M.entries), Stored::both);
   for (const NamedMatrix& matrix : all)
     if (&matrix != &K && &matrix != &M && !matrix.entries.empty())
       data.losses.push_back(

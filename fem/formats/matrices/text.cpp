@@ -6,14 +6,13 @@
 #include <cmath>
 
 #include "fem/error.hpp"
-#include "fem/formats/file_bytes.hpp"
 
 namespace tenon::fem::market {
 
 Text::Text(const std::filesystem::path& path, std::string cure)
-    : bytes_(read_bytes(path)), cure_(std::move(cure)), cursor_(path.string(), bytes_) {
-  if (bytes_.empty()) throw InputError({path.string()}, "the file is empty", cure_);
-  if (bytes_.back() != '\n') fail(bytes_.size(), "the last line has no line end, so the file may be cut off");
+    : pages_(path), cure_(std::move(cure)), cursor_(path.string(), pages_.bytes(), &pages_) {
+  if (size() == 0) throw InputError({path.string()}, "the file is empty", cure_);
+  if (pages_.bytes().back() != '\n') fail(size(), "the last line has no line end, so the file may be cut off");
 }
 
 bool Text::line_ends(char comment) {
@@ -22,6 +21,7 @@ bool Text::line_ends(char comment) {
 }
 
 bool Text::next_line(char comment) {
+  cursor_.hand_back();
   for (;;) {
     cursor_.skip_white();
     if (cursor_.remaining() == 0) return false;

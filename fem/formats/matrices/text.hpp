@@ -17,7 +17,7 @@ class Text {
   Text& operator=(const Text&) = delete;
 
   const std::string& file() const { return cursor_.file(); }
-  std::size_t size() const { return bytes_.size(); }
+  std::size_t size() const { return cursor_.size(); }
   std::size_t offset() const { return start_; }  ///< of the word read last
 
   /// Goes to the next line with words before `comment`; false at the end of the file.
@@ -32,7 +32,8 @@ class Text {
   [[noreturn]] void fail(std::size_t at, const std::string& what, const std::string& cure = {}) const;
 
  private:
-  std::string bytes_, cure_;
+  MappedFile pages_;
+  std::string cure_;
   gmsh::Cursor cursor_;
   std::size_t start_ = 0;
 };

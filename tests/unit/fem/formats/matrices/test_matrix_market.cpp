@@ -88,7 +88,7 @@ TEST(MatrixMarket, RefusesRepeatedEntriesAndNamesTheWorstAsymmetry) {
   EXPECT_THAT(fault(general + "3 3 3\n2 1 4\n1 2 4\n2 1 4\n"), HasSubstr("is given twice"));
   EXPECT_THAT(fault(symmetric + "3 3 2\n1 1 4\n1 1 4\n"), HasSubstr("is given twice"));
   EXPECT_THAT(fault(general + "3 3 5\n1 1 9\n2 1 1.001\n1 2 1\n3 2 5\n2 3 4\n"),
-              HasSubstr("k.mtx:6:1: the matrix is not symmetric: 5 and 4 couple scalar 7 and node 1 uy"));
+              HasSubstr("k.mtx:6:1: the matrix is not symmetric: 5 and 4 couple scalar point 7 and node 1 uy"));
   EXPECT_THAT(fault(general + "3 3 1\n2 1 1\n"), HasSubstr("the matrix is not symmetric: 1 and 0"));
   EXPECT_EQ(fault(general + "3 3 3\n1 1 1\n2 1 0.3\n1 2 0.30000000000000004\n"), "");  // round-off is not a fault
 }
