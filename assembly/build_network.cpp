@@ -68,7 +68,7 @@ ReducedBody reduce_fe(const SceneBody& body, const FeSource& fe, const BodyPlan&
 
 ReducedBody read_reduced(const SceneBody& body, const ReducedSource& source) {
   const bool printed = source.file.extension() == ".f06";
-  ReducedBody reduced = printed ? read_modal_run(source.file) : reduction::read_body(source.file);
+  ReducedBody reduced = printed ? read_modal_run(source.file, source.units) : reduction::read_body(source.file);
   reduced.name = body.name;
   if (body.parent_port.empty()) return reduced;
   const int port = reduction::port_index(reduced, body.parent_port);

@@ -26,29 +26,30 @@ fs::path deck_beside(const fs::path& f06) {
       fmt::format("Put {} there, or .dat or .nas", fs::path(f06).replace_extension(".bdf").filename().string()));
 }
 
-/// The one node that supports hold in all six directions.
-int clamp(const fem::Model& model, const fs::path& deck) {
+/// The nodes that supports hold in all six directions, by rising number.
+std::vector<int> clamped_nodes(const fem::Model& model, const fs::path& deck) {
   std::map<int, unsigned> held;
   for (const fem::Support& support : model.supports) held[support.dof.node] |= 1U << support.dof.direction;
   std::vector<int> whole;
   for (const auto& [node, directions] : held)
     if (directions == fem::all_six) whole.push_back(node);
-  if (whole.size() != 1)
-    throw InputError({deck.string()},
-                     fmt::format("{} grids are held in all six directions, and the parent port is one", whole.size()),
-                     "Clamp one grid (SPC1, 123456) and tie the interface to it by an RBE2");
-  return whole.front();
+  if (whole.empty())
+    throw InputError({deck.string()}, "no grid is held in all six directions, and the parent port is one",
+                     "Clamp a grid (SPC1, 123456) and tie the interface to it by an RBE2");
+  std::ranges::sort(whole, {}, [&](int node) { return model.node_ids[static_cast<std::size_t>(node)]; });
+  return whole;
 }
 
 /// Supports elsewhere: those without mass (drilling rotations, AUTOSPC) go, others ground the body.
-void refuse_ground(const fem::Model& model, const fem::Structure& structure, int parent, const fs::path& deck) {
+void refuse_ground(const fem::Model& model, const fem::Structure& structure, const std::vector<int>& clamped,
+                   const fs::path& deck) {
   for (const fem::Support& support : model.supports) {
-    if (support.dof.node == parent) continue;
+    if (std::ranges::find(clamped, support.dof.node) != clamped.end()) continue;
     const int row = structure.dofs.row(support.dof);
     if (row < 0) continue;
     if (structure.M.coeff(row, row) > 0.0)
       throw InputError({deck.string()}, fmt::format("{} is held beside the clamp", fem::name(model, support.dof)),
-                       "A body is held at its parent port alone: take the other supports out and run it again");
+                       "A body is held at its clamped grids alone: take the other supports out and run it again");
   }
 }
 
@@ -62,31 +63,45 @@ void compare_mass(const fem::ModalRun& run, double mass, double factor, const fs
                      "Deck and .f06 must be of one run");
 }
 
+/// Shapes keep their scale: translations to metres, so generalized masses by mass · length².
+void take_to_si(fem::ModalRun& run, const Units& units) {
+  const Factor length = units.to_si(dimension::length), inertia = units.to_si(dimension::inertia);
+  const Factor lambda = units.to_si({-1, -1, 0, 1});  // stiffness over mass, whatever counts forces
+  for (auto& [number, mode] : run.modes) {
+    mode.lambda = lambda * mode.lambda;
+    mode.generalized_mass = inertia * mode.generalized_mass;
+  }
+  for (auto& [number, shape] : run.shapes)
+    for (auto& [grid, u] : shape) u.head<3>() = length * fem::Vec3(u.head<3>());
+  if (run.mass) (*run.mass)(0, 0) = units.to_si(dimension::mass) * (*run.mass)(0, 0);  // all that is looked at
+}
+
 }  // namespace
 
-reduction::ReducedBody read_modal_run(const fs::path& f06) {
+reduction::ReducedBody read_modal_run(const fs::path& f06, const Units& units) {
   const fs::path file = deck_beside(f06);
-  const fem::ModalRun run = fem::read_f06(f06);
+  fem::ModalRun run = fem::read_f06(f06);
+  take_to_si(run, units);
   fem::NastranDeck deck = fem::read_nastran(file);
   if (!deck.turned_nodes.empty())
     throw InputError({file.string()},
                      fmt::format("grid {} has a displacement frame CD, in which the .f06 prints its shapes",
                                  deck.turned_nodes.front()),
                      "Leave CD blank and run it again");
-  fem::Model& model = deck.model;
-  const int parent = clamp(model, file);
-  const auto add_port = [&](int node) {
-    model.ports.push_back({fmt::format("g{}", model.node_ids[static_cast<std::size_t>(node)]), node});
-  };
-  add_port(parent);
+  fem::Model model = to_si(std::move(deck.model), units);
+  const std::vector<int> clamped = clamped_nodes(model, file);
+  std::vector<int> ports{clamped.front()};
   for (const int node : deck.boundary_nodes)
-    if (node != parent) add_port(node);
+    if (node != clamped.front()) ports.push_back(node);
+  for (const int node : ports)
+    model.ports.push_back({fmt::format("g{}", model.node_ids[static_cast<std::size_t>(node)]), node});
 
   fem::Model free = model;
   free.supports.clear();
   const fem::Structure structure = fem::assemble(free);
-  refuse_ground(model, structure, parent, file);
-  reduction::ReducedBody body = reduction::modal_body(structure, model.ports.front().name, run);
+  refuse_ground(model, structure, clamped, file);
+  reduction::ReducedBody body =
+      reduction::modal_body(structure, model.ports.front().name, run, {clamped.begin() + 1, clamped.end()});
   compare_mass(run, body.D(0, 0), deck.mass_factor, f06);
   body.name = f06.stem().string();
   body.certificate.source = fmt::format("{}, {}", f06.filename().string(), file.filename().string());

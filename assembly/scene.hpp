@@ -101,6 +101,7 @@ struct FeSource {
 
 struct ReducedSource {
   std::filesystem::path file;
+  Units units;  ///< of an .f06 and its deck; a body's file is in SI
 };
 
 /// A straight uniform beam without a mesh: ports P at `from`, C at `to`.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
 #include "fem/error.hpp"
@@ -13,13 +14,13 @@ namespace {
 
 constexpr double worst = 1e-2;  // of orthonormality, links and parent: beyond it the shapes are of another model
 
-/// Printed shapes on the rows of K and M, zero at the parent port.
-Eigen::MatrixXd on_rows(const fem::Structure& s, int parent, const fem::ModalRun& run) {
+/// Printed shapes on the rows of K and M, zero at the clamped nodes.
+Eigen::MatrixXd on_rows(const fem::Structure& s, const std::vector<int>& clamped, const fem::ModalRun& run) {
   Eigen::MatrixXd Phi = Eigen::MatrixXd::Zero(s.n(), static_cast<Eigen::Index>(run.shapes.size()));
   const Eigen::VectorXd weight = s.M.diagonal();
   for (int row = 0; row < s.n(); ++row) {
     const fem::Dof dof = s.dofs.free[static_cast<std::size_t>(row)];
-    if (dof.node == parent) continue;
+    if (std::ranges::find(clamped, dof.node) != clamped.end()) continue;
     const long id = s.node_ids[static_cast<std::size_t>(dof.node)];
     for (const auto& [mode, shape] : run.shapes) {
       const auto found = shape.find(id);
@@ -34,7 +35,8 @@ Eigen::MatrixXd on_rows(const fem::Structure& s, int parent, const fem::ModalRun
 }
 
 /// Printed motion of every node against T Φ: the clamp is where the run had it, and links are the deck's.
-void check_motion(const fem::Structure& s, int parent, const fem::ModalRun& run, const Eigen::MatrixXd& Phi) {
+void check_motion(const fem::Structure& s, const std::vector<int>& clamped, const fem::ModalRun& run,
+                  const Eigen::MatrixXd& Phi) {
   const Eigen::MatrixXd full = s.dofs.expand(Phi);
   for (const auto& [mode, shape] : run.shapes) {
     Eigen::Vector2d largest = Eigen::Vector2d::Zero();  // translation, rotation
@@ -42,9 +44,9 @@ void check_motion(const fem::Structure& s, int parent, const fem::ModalRun& run,
       largest = largest.cwiseMax(Eigen::Vector2d(u.head<3>().cwiseAbs().maxCoeff(), u.tail<3>().cwiseAbs().maxCoeff()));
     for (std::size_t node = 0; node < s.nodes.size(); ++node) {
       const auto found = shape.find(s.node_ids[node]);
-      const bool clamp = static_cast<int>(node) == parent;
+      const bool clamp = std::ranges::find(clamped, static_cast<int>(node)) != clamped.end();
       if (clamp && found == shape.end())
-        throw ModelError(fmt::format("eigenvector {} does not show node {}, the parent port", mode, s.node_ids[node]),
+        throw ModelError(fmt::format("eigenvector {} does not show node {}, which is clamped", mode, s.node_ids[node]),
                          "Print all grids: VECTOR = ALL in the case control");
       if (found == shape.end()) continue;
       for (int k = 0; k < 6; ++k) {
@@ -56,7 +58,7 @@ void check_motion(const fem::Structure& s, int parent, const fem::ModalRun& run,
               fmt::format("mode {} moves node {} {} by {:.3g}, where {} says {:.3g}", mode, s.node_ids[node],
                           directions[static_cast<std::size_t>(k)], found->second[k],
                           clamp ? "the clamp" : "the deck's links", full(static_cast<Eigen::Index>(dof), mode - 1)),
-              "Deck and .f06 must be of one run, clamped at the parent port");
+              "Deck and .f06 must be of one run, clamped where the deck says");
       }
     }
   }
@@ -77,11 +79,14 @@ Eigen::MatrixXd orthonormal(const fem::Structure& s, const fem::ModalRun& run, c
 
 }  // namespace
 
-ReducedBody modal_body(const fem::Structure& s, const std::string& parent, const fem::ModalRun& run) {
+ReducedBody modal_body(const fem::Structure& s, const std::string& parent, const fem::ModalRun& run,
+                       const std::vector<int>& beside) {
   const Partition parts = partition(s, parent, true);
   const int clamp = s.ports[static_cast<std::size_t>(parts.parent)].node;
-  const Eigen::MatrixXd printed = on_rows(s, clamp, run);
-  check_motion(s, clamp, run, printed);
+  std::vector<int> clamped{clamp};
+  clamped.insert(clamped.end(), beside.begin(), beside.end());
+  const Eigen::MatrixXd printed = on_rows(s, clamped, run);
+  check_motion(s, clamped, run, printed);
 
   ReducedBody body;
   Certificate& c = body.certificate;
@@ -117,6 +122,9 @@ ReducedBody modal_body(const fem::Structure& s, const std::string& parent, const
       "digits beyond the {} that the .f06 prints: a shape's numbers are known to {:.0e} of the largest digit's place, "
       "frequencies to {:.0e}; the printed modes are orthonormal in the deck's mass to {:.1e}",
       run.digits, 0.5 * std::pow(10.0, 1 - run.digits), 0.25 * std::pow(10.0, 1 - run.digits), c.max_orthogonality));
+  if (!beside.empty())
+    c.left_out.push_back(
+        fmt::format("how the {} clamped nodes move against each other: they are one rigid piece", clamped.size()));
   c.left_out.emplace_back("modes that the run did not print, and static shapes of the ports");
   c.left_out.emplace_back("residuals and count of the modes: no K of the other program is at hand");
   check(body);

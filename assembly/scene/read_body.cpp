@@ -274,12 +274,7 @@ SceneBody read_body(const Member& entry, const std::filesystem::path& folder, co
            {"material", "sections", "beam_mass", "fix", "masses", "springs", "ignore", "allow", "damping", "reduction",
             "ports"},
            "a reduced body: its file says it");
-    const ReducedSource source{folder / map.find("reduced")->text};
-    if (source.file.extension() == ".f06" && (units.length != 1.0 || units.mass != 1.0 || units.time != 1.0))
-      throw InputError(map.find("reduced")->place,
-                       fmt::format("the units are {}, and an .f06 is read in SI", units.name),
-                       "Reduce it in a scene in SI with `tenon reduce`, or run deck and modes in SI");
-    body.source = source;
+    body.source = ReducedSource{folder / map.find("reduced")->text, units};
   }
 
   if (const Value* ports = map.find("ports"))

@@ -31,7 +31,7 @@ std::optional<double> real(std::string_view word) {
   for (std::size_t i = 0; i < word.size(); ++i) {
     const char c = word[i];
     const bool sign = c == '-' || c == '+';
-    if (sign && i > 0 && text.back() != 'e') text += 'e';
+    if (sign && i > 0 && !text.ends_with('e')) text += 'e';
     if (!(c == '+' && i == 0)) text += c == 'E' || c == 'D' ? 'e' : c;
   }
   if (const auto plus = text.find("e+"); plus != std::string::npos) text.erase(plus + 1, 1);
