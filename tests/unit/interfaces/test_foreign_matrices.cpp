@@ -143,6 +143,25 @@ TEST_F(CalculixScene, JoinedToAHubGivesDenseFrequencies) {
     EXPECT_GT(modes["frequencies_hz"][6 + k].get<double>(), expected[k] * (1.0 - all_digits));
 }
 
+// The walk of docs/calculix.md: status 0 says that the reduced frequencies meet the scene's tolerance beside the full
+// ones.
+TEST_F(CalculixScene, TheShippedBoomMeetsItsTolerance) {
+  for (const char* file : {"boom.inp", "scene.yaml"})
+    fs::copy_file(fs::path(TENON_SOURCE_DIR) / "data" / "calculix" / file, folder_.path() / file);
+  ASSERT_TRUE(tenon::calculix::run(folder_.path(), "boom")) << text(folder_.path() / "boom.log");
+  const json modes = object("modes scene.yaml --full --count 12");
+  EXPECT_EQ(modes["rigid_modes"], 6);
+  // a cantilever of ℓ/h = 40: (1.8751/ℓ)² h √(E/12ρ) / 2π; the clamped face restrains the width by some per cent
+  const double beam = std::pow(1.875104 / 0.4, 2) * 0.01 * std::sqrt(70e9 / (12.0 * 2700.0)) / (2.0 * std::numbers::pi);
+  const json boom = object("reduce scene.yaml --body boom -o boom.body.json");
+  folder_.write("clamped.yaml",
+                "units: SI\nbodies:\n  boom: {matrices: {calculix: boom, deck: boom.inp}, fix: {ROOT: all}}\n");
+  const double lowest = object("modes clamped.yaml --count 1")["frequencies_hz"][0].get<double>();
+  EXPECT_NEAR(lowest / beam, 1.0, 0.03);
+  // Ritz: the clamped mode among the body's shapes
+  EXPECT_NEAR(boom["frequencies_hz"][0].get<double>() / lowest, 1.0, 1e-6);
+}
+
 /// A free beam along x of ten cubic elements, six dofs a node (ux uy uz rx ry rz).
 struct FreeBeam {
   static constexpr int elements = 10, n = 6 * (elements + 1);
@@ -176,7 +195,8 @@ struct FreeBeam {
            "  hub: {rigid: {mass: 3, inertia: [0.2, 0.3, 0.25], com: [-0.1, 0.05, 0.2]}, ports: {p: [0, 0, 0]}}\n"
            "  beam:\n    matrices: {" +
            source +
-           "}\n    ports: {root: {node: 1}, tip: {node: 11}}\n    reduction: {basis: craig-bampton-inertia-relief, modes: 24}\n"
+           "}\n    ports: {root: {node: 1}, tip: {node: 11}}\n    reduction: {basis: craig-bampton-inertia-relief, "
+           "modes: 24}\n"
            "joints: {j: {parent: hub.p, child: beam.root, weld: true}}\n";
   }
   static double x(int node) { return length * (node - 1) / elements; }
