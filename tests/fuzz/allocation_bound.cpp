@@ -11,7 +11,7 @@
 namespace tenon::fuzz {
 namespace {
 
-constexpr std::int64_t least = 4 << 20, times = 100;
+constexpr std::int64_t least = 4 << 20;
 
 // One thread reads; the hooks must not allocate.
 std::int64_t live = 0, bound = 0;
@@ -20,7 +20,7 @@ bool counting = false;
 void allocated(const volatile void*, std::size_t size) {
   if (!counting || (live += static_cast<std::int64_t>(size)) <= bound) return;
   counting = false;
-  constexpr std::string_view text = "ERROR: the reader holds more than 100 times the case and 4 MiB\n";
+  constexpr std::string_view text = "ERROR: the reader holds more than its bound: a multiple of the case, and 4 MiB\n";
   [[maybe_unused]] const auto written = ::write(STDERR_FILENO, text.data(), text.size());
   std::abort();
 }
@@ -32,7 +32,7 @@ void freed(const volatile void* memory) {
 
 }  // namespace
 
-AllocationBound::AllocationBound(std::size_t case_size) {
+AllocationBound::AllocationBound(std::size_t case_size, int times) {
   [[maybe_unused]] static const int installed = __sanitizer_install_malloc_and_free_hooks(allocated, freed);
   live = 0;
   bound = std::max(least, times * static_cast<std::int64_t>(case_size));

@@ -4,11 +4,11 @@
 
 namespace tenon::fuzz {
 
-/// While one lives, the program ends as at a fault once it holds more memory than at the beginning by 100 times the
-/// case, or by 4 MiB for small ones: what a file declares must not be believed before its content is there.
+/// While one lives, the program ends as at a fault once it holds more memory than at the beginning by `times`
+/// the case, or by 4 MiB for small ones: what a file declares must not be believed before its content is there.
 class AllocationBound {
  public:
-  explicit AllocationBound(std::size_t case_size);
+  AllocationBound(std::size_t case_size, int times);
   ~AllocationBound();
   AllocationBound(const AllocationBound&) = delete;
   AllocationBound& operator=(const AllocationBound&) = delete;

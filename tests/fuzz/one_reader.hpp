@@ -20,8 +20,8 @@ namespace tenon::fuzz {
 /// Calls a reader of a case of so many bytes: it may read or refuse (an Error of the project); whatever else escapes,
 /// and memory beyond AllocationBound, ends the run as a fault.
 template <class Reader>
-int read_or_refuse(std::size_t size, Reader&& reader) {
-  const AllocationBound bound(size);
+int read_or_refuse(std::size_t size, Reader&& reader, int times = 100) {
+  const AllocationBound bound(size, times);
   try {
     reader();
   } catch (const Error&) {

@@ -1,4 +1,6 @@
+#include <fmt/format.h>
 #include "assembly/scene.hpp"
+
 #include "tests/unit/broken_files/broken.hpp"
 
 namespace tenon::broken {
@@ -108,11 +110,15 @@ Family scene_cases() {
     for (int i = 0; i < 10; ++i) laughs += (i > 0 ? ", *a" : "*a") + std::to_string(k - 1);
     laughs += "]\n";
   }
+  std::string nested = "a0: &a0 x\n";  // each in a list of two levels about the one before
+  for (int k = 1; k < 40; ++k) nested += fmt::format("a{}: &a{} [[*a{}]]\n", k, k, k - 1);
   cases.push_back({.name = "Windows line ends", .bytes = with_windows_ends(scene), .reads = true});
   cases.push_back({.name = "byte order mark", .bytes = "\xEF\xBB\xBF" + scene, .reads = true});
   cases.push_back({"tabs before keys", replaced(scene, "  hub:", "\thub:"), {"bad.yaml:4:"}});
   cases.push_back({"nested too deep", deep, {"bad.yaml:"}});
   cases.push_back({"aliases that multiply", laughs, {"too large"}});
+  cases.push_back({"an alias inside what it names", "units: &u [SI, *u]\n", {"bad.yaml:1:16", "inside what it names"}});
+  cases.push_back({"aliases that nest", nested, {"too deep"}});
   cases.push_back({"zero bytes", std::string(40, '\0'), {"bad.yaml"}});
   cases.push_back({"empty", "", {"bad.yaml"}});
   cases.push_back({"comments alone", "# nothing\n", {"bad.yaml"}});
