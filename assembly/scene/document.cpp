@@ -13,10 +13,10 @@
 namespace tenon::assembly {
 namespace {
 
-constexpr int deepest = 64;             // a scene is five levels deep
-constexpr std::size_t most = 200'000;   // values, aliases written out
-constexpr std::size_t beside = 10'000;  // of them beyond the bytes of the file: what aliases may add
-constexpr const char* itself = "Write it without aliases that contain themselves";
+constexpr int deepest = 64;                        // a scene is five levels deep
+constexpr std::size_t most_values = 200'000;       // values, aliases written out
+constexpr std::size_t values_by_aliases = 10'000;  // of them beyond the bytes of the file: what aliases may add
+constexpr const char* cure_of_aliases = "Write it without aliases that contain themselves";
 
 Place place_of(const std::string& file, const YAML::Mark& mark) {
   if (mark.is_null()) return {file};
@@ -27,7 +27,8 @@ Place place_of(const std::string& file, const YAML::Mark& mark) {
 /// bounds ends where it does.
 class Builder : public YAML::EventHandler {
  public:
-  Builder(std::string file, std::size_t bytes) : file_(std::move(file)), most_(std::min(most, beside + bytes)) {
+  Builder(std::string file, std::size_t bytes)
+      : file_(std::move(file)), most_(std::min(most_values, values_by_aliases + bytes)) {
     root_.place = {file_, 1, 1};
   }
   Value take() { return std::move(root_); }
@@ -50,7 +51,7 @@ class Builder : public YAML::EventHandler {
   void OnMapEnd() override { close(); }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     const auto named = named_.find(anchor);
-    if (named == named_.end()) throw InputError(place(mark), "an alias stands inside what it names", itself);
+    if (named == named_.end()) throw InputError(place(mark), "an alias stands inside what it names", cure_of_aliases);
     count(named->second.size, place(mark));
     add({named->second.value, named->second.size, named->second.height});
   }
@@ -83,7 +84,7 @@ class Builder : public YAML::EventHandler {
     part.value.kind = kind;
     part.value.place = place(mark);
     count(1, part.value.place);
-    if (stack_.size() > deepest) throw InputError(part.value.place, "nesting is too deep", itself);
+    if (stack_.size() > deepest) throw InputError(part.value.place, "nesting is too deep", cure_of_aliases);
     return part;
   }
   void leaf(Value::Kind kind, const YAML::Mark& mark, YAML::anchor_t anchor, const std::string& text) {
@@ -119,7 +120,7 @@ class Builder : public YAML::EventHandler {
     in.part.size += part.size;
     in.part.height = std::max(in.part.height, part.height + 1);
     if (static_cast<int>(stack_.size()) + part.height > deepest)
-      throw InputError(part.value.place, "nesting is too deep", itself);
+      throw InputError(part.value.place, "nesting is too deep", cure_of_aliases);
     if (in.part.value.kind == Value::Kind::list)
       in.part.value.items.push_back(std::move(part.value));
     else if (!in.key)
