@@ -7,6 +7,7 @@
 
 #include "fem/formats/matrices/abaqus.hpp"
 #include "fem/formats/matrices/calculix.hpp"
+#include "fem/formats/matrices/dmig.hpp"
 #include "fem/formats/matrices/matrix_market.hpp"
 #include "fem/formats/matrices/op4.hpp"
 #include "tests/benchmarks/reading.hpp"
@@ -192,6 +193,26 @@ void op4_binary(benchmark::State& state) {
   measure(state, files, "k.op4", false, 0.5 * content_of_two(true), 1.0, [&] { return fem::read_op4(files("k.op4")); });
 }
 
+/// A column of DMIG is a card whose continuations hold an entry each. Both matrices stand in one file.
+void dmig(benchmark::State& state) {
+  const Files files;
+  {
+    auto out = fmt::output_file(files("k.pch").string());
+    for (int i = 0; i < nodes; ++i) out.print("GRID    {:8}{:8}{:8.1f}{:8.1f}{:8.1f}\n", i + 1, "", 1.0 * i, 0.0, 0.0);
+    for (const char* name : {"KAAX", "MAAX"}) {
+      out.print("DMIG    {:8}{:8}{:8}{:8}{:8}\n", name, 0, 6, 2, 0);
+      int current = -1;
+      each_entry(false, [&](int i, int j, double value) {
+        if (j != current) out.print("DMIG*   {:16}{:16}{:16}{:16}\n", name, j / 3 + 1, j % 3 + 1, "");
+        current = j;
+        out.print("*       {:16}{:16}{:16.9E}\n", i / 3 + 1, i % 3 + 1, value);
+      });
+    }
+  }
+  measure(state, files, "k.pch", true, content_of_two(false), 1.0,
+          [&] { return fem::read_nastran_dmig(files("k.pch").string()); });
+}
+
 }  // namespace
 
 BENCHMARK(calculix)->Unit(benchmark::kSecond)->Iterations(2);
@@ -200,4 +221,5 @@ BENCHMARK(market_symmetric)->Unit(benchmark::kSecond)->Iterations(2);
 BENCHMARK(market_general)->Unit(benchmark::kSecond)->Iterations(2);
 BENCHMARK(op4_text)->Unit(benchmark::kSecond)->Iterations(2);
 BENCHMARK(op4_binary)->Unit(benchmark::kSecond)->Iterations(2);
+BENCHMARK(dmig)->Unit(benchmark::kSecond)->Iterations(2);
 BENCHMARK_MAIN();

@@ -2,48 +2,20 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <numeric>
-#include <unordered_map>
 #include <utility>
 
 #include "fem/error.hpp"
 #include "fem/formats/matrices/number_lines.hpp"
+#include "fem/formats/matrices/numbering.hpp"
 #include "fem/formats/matrices/symmetric.hpp"
 #include "fem/formats/nastran/cards.hpp"
 
 namespace tenon::fem {
 namespace {
 
+using matrices::Label;
+using matrices::Numbering;
 using matrices::NumberLines;
-using Label = std::pair<long, int>;  ///< node, direction
-
-/// Numbers dofs in the order in which they are met.
-class Numbering {
- public:
-  /// @param word  0 for rows, 1 for columns: each stays at a node for several lines
-  int operator()(std::size_t word, const Label& label) {
-    auto& [node, numbers] = last_.at(word);
-    if (node != label.first) {
-      numbers = &numbers_[label.first];
-      node = label.first;
-    }
-    int& number = numbers->at(static_cast<std::size_t>(label.second));
-    if (number == 0) {
-      labels_.push_back(label);
-      number = static_cast<int>(labels_.size());
-    }
-    return number - 1;
-  }
-  const std::vector<Label>& labels() const { return labels_; }
-
- private:
-  using Numbers = std::array<int, 6>;  // from 1 on; 0: not met yet
-  std::unordered_map<long, Numbers> numbers_;
-  std::array<std::pair<long, Numbers*>, 2> last_{};
-  std::vector<Label> labels_;
-};
 
 constexpr double mark_of_support = 1e35;  // Abaqus writes 1e36 on the diagonal of a dof that is held
 
@@ -94,10 +66,7 @@ MatrixData read_abaqus_matrices(const std::filesystem::path& stiffness, const st
 
   MatrixData data;
   data.source = stiffness.string();
-  std::vector<std::size_t> order(labels.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::ranges::sort(order, {}, [&](std::size_t i) { return labels[i]; });
-  for (const std::size_t i : order) {
+  for (const std::size_t i : number.order()) {
     if (row_of[i] < 0) continue;
     row_of[i] = static_cast<int>(data.rows.size());
     data.rows.push_back({labels[i].first, labels[i].second, false});

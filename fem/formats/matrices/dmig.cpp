@@ -8,6 +8,7 @@
 
 #include "fem/error.hpp"
 #include "fem/formats/matrices/interface_cards.hpp"
+#include "fem/formats/matrices/numbering.hpp"
 #include "fem/formats/matrices/symmetric.hpp"
 
 namespace tenon::fem {
@@ -15,6 +16,13 @@ namespace matrices {
 namespace {
 
 using nastran::Card;
+
+/// A matrix that a file's DMIG cards give, its dofs as numbered in all of them.
+struct DirectMatrix {
+  std::string name;
+  int form = 0;  ///< 1 square, 6 symmetric
+  std::vector<Entry> terms;
+};
 
 /// DMIG NAME 0 IFO TIN TOUT POLAR – NCOL.
 DirectMatrix header(const Card& card) {
@@ -50,12 +58,12 @@ std::pair<long, int> label(const InterfaceCards& cards, const Card& card, int fi
   return {id, -1};
 }
 
-const DirectMatrix& choose(const std::string& file, const std::vector<DirectMatrix>& all, const std::string& name,
-                           char initial, const char* what) {
-  const DirectMatrix* found = nullptr;
+DirectMatrix& choose(const std::string& file, std::vector<DirectMatrix>& all, const std::string& name, char initial,
+                     const char* what) {
+  DirectMatrix* found = nullptr;
   std::vector<std::string> names;
   std::string list;
-  for (const DirectMatrix& matrix : all) {
+  for (DirectMatrix& matrix : all) {
     names.push_back(matrix.name);
     list += (list.empty() ? "" : ", ") + matrix.name;
     const bool fits = name.empty() ? matrix.name[0] == initial && !matrix.name.starts_with("K4") : matrix.name == name;
@@ -73,9 +81,8 @@ const DirectMatrix& choose(const std::string& file, const std::vector<DirectMatr
       near.empty() ? "Name the matrix" : fmt::format("Did you mean {}?", near));
 }
 
-}  // namespace
-
-std::vector<DirectMatrix> take_direct_matrices(InterfaceCards& cards) {
+/// Takes the DMIG cards. Throws InputError for complex and rectangular matrices.
+std::vector<DirectMatrix> take_direct_matrices(InterfaceCards& cards, Numbering& number) {
   std::vector<DirectMatrix> all;
   std::map<std::string, std::size_t> index;
   for (const Card& card : cards.draft.take("DMIG")) {
@@ -90,7 +97,7 @@ std::vector<DirectMatrix> take_direct_matrices(InterfaceCards& cards) {
     const auto at = index.find(name);
     if (at == index.end())
       card.refuse(1, fmt::format("{} has no header ahead of this column", name), "Put 'DMIG,name,0,...' first");
-    const auto column = label(cards, card, 2);
+    const int column = number(1, label(cards, card, 2));
     for (int field = 5; field <= card.size(); field += 4) {
       if (card.blank(field)) {
         if (card.size() > field) card.fail(field, "G", "a grid or scalar point");
@@ -99,34 +106,39 @@ std::vector<DirectMatrix> take_direct_matrices(InterfaceCards& cards) {
       const double value = card.real(field + 2, "A");
       if (!card.blank(field + 3) && card.real(field + 3, "B") != 0.0)
         card.refuse(field + 3, fmt::format("{} has an imaginary part", name), "Write the matrix as real DMIG");
-      all[at->second].terms.push_back({label(cards, card, field), column, value});
+      all[at->second].terms.emplace_back(number(0, label(cards, card, field)), column, value);
     }
   }
   return all;
 }
 
+}  // namespace
+
 MatrixData from_direct_matrices(const std::string& file, InterfaceCards& cards, const std::string& stiffness,
                                 const std::string& mass) {
-  const std::vector<DirectMatrix> all = take_direct_matrices(cards);
-  const DirectMatrix& k = choose(file, all, nastran::upper(stiffness), 'K', "the stiffness matrix");
-  const DirectMatrix& m = choose(file, all, nastran::upper(mass), 'M', "the mass matrix");
+  Numbering number;
+  std::vector<DirectMatrix> all = take_direct_matrices(cards, number);
+  DirectMatrix& k = choose(file, all, nastran::upper(stiffness), 'K', "the stiffness matrix");
+  DirectMatrix& m = choose(file, all, nastran::upper(mass), 'M', "the mass matrix");
 
   MatrixData data;
   data.source = file;
-  std::map<std::pair<long, int>, int> index;
+  std::vector<int> row_of(number.labels().size(), -1);  // −1: in other matrices alone
   for (const DirectMatrix* matrix : {&k, &m})
-    for (const DirectMatrix::Term& term : matrix->terms) index[term.row] = index[term.column] = 0;
-  for (auto& [dof, row] : index) {
-    row = static_cast<int>(data.rows.size());
-    data.rows.push_back({dof.first, std::max(dof.second, 0), dof.second < 0});
+    for (const Entry& term : matrix->terms)
+      row_of[static_cast<std::size_t>(term.row())] = row_of[static_cast<std::size_t>(term.col())] = 0;
+  for (const std::size_t i : number.order()) {
+    if (row_of[i] < 0) continue;
+    row_of[i] = static_cast<int>(data.rows.size());
+    const auto& [id, direction] = number.labels()[i];
+    data.rows.push_back({id, std::max(direction, 0), direction < 0});
   }
   if (data.rows.empty())
     throw InputError({file}, fmt::format("{} and {} have no terms", k.name, m.name), "Write them again");
-  const auto symmetric = [&](const DirectMatrix& matrix) {
-    std::vector<Entry> entries;
-    for (const DirectMatrix::Term& term : matrix.terms)
-      entries.emplace_back(index.at(term.row), index.at(term.column), term.value);
-    return lower_triangle(matrix.name, file, data.rows, std::move(entries),
+  const auto symmetric = [&](DirectMatrix& matrix) {
+    for (Entry& term : matrix.terms)
+      term = {row_of[static_cast<std::size_t>(term.row())], row_of[static_cast<std::size_t>(term.col())], term.value()};
+    return lower_triangle(matrix.name, file, data.rows, std::move(matrix.terms),
                           matrix.form == 6 ? Stored::either : Stored::both);
   };
   data.K = symmetric(k);

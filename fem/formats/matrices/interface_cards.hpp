@@ -30,20 +30,6 @@ struct InterfaceCards {
 /// the set "boundary". Throws InputError for a node in a skew frame with some but not all of three directions.
 void turn_to_basic(MatrixData& data, const InterfaceCards& cards);
 
-/// The matrices that a file's DMIG cards give, rows and columns by label.
-struct DirectMatrix {
-  std::string name;
-  int form = 0;  ///< 1 square, 6 symmetric
-  struct Term {
-    std::pair<long, int> row, column;  ///< grid and direction 0..5, or scalar point and −1
-    double value = 0.0;
-  };
-  std::vector<Term> terms;
-};
-
-/// Takes the DMIG cards. Throws InputError for complex and rectangular matrices.
-std::vector<DirectMatrix> take_direct_matrices(InterfaceCards& cards);
-
 /// The labels of K and M in rising order as rows; "", "" choose the one matrix whose name begins so.
 MatrixData from_direct_matrices(const std::string& file, InterfaceCards& cards, const std::string& stiffness,
                                 const std::string& mass);
