@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <map>
+#include <variant>
 
 #include "fem/error.hpp"
 #include "fem/formats/deck.hpp"
@@ -13,15 +14,21 @@
 namespace tenon::cli {
 namespace {
 
-const char* kind_name(const fem::Element& element) {
-  static constexpr const char* names[] = {"beams", "4-node shells", "3-node shells", "lumped masses", "springs"};
-  return names[element.index()];
-}
+/// One name for each kind of element: one without does not compile.
+struct KindName {
+  const char* operator()(const fem::Beam&) const { return "beams"; }
+  const char* operator()(const fem::Quad4&) const { return "4-node shells"; }
+  const char* operator()(const fem::Tria3&) const { return "3-node shells"; }
+  const char* operator()(const fem::PointMass&) const { return "lumped masses"; }
+  const char* operator()(const fem::Spring&) const { return "springs"; }
+  const char* operator()(const fem::Rod&) const { return "rods"; }
+  const char* operator()(const fem::Bush&) const { return "springs in six directions"; }
+};
 
 /// How many of what a structural model holds, by name.
 std::map<std::string, std::size_t> contents(const fem::Model& model) {
   std::map<std::string, std::size_t> counts;
-  for (const fem::Element& element : model.elements) ++counts[kind_name(element)];
+  for (const fem::Element& element : model.elements) ++counts[std::visit(KindName{}, element)];
   const auto add = [&](const char* name, std::size_t count) {
     if (count > 0) counts[name] = count;
   };

@@ -61,6 +61,18 @@ TEST_F(Cli, InfoPrintsWhatTheMeshHolds) {
   EXPECT_TRUE(info["read_past"].is_array());
 }
 
+TEST_F(Cli, InfoNamesEveryKindOfElement) {
+  folder_.write("kinds.bdf",
+                "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,1.,1.,0.\nGRID,4,,0.,1.,0.\nMAT1,1,7.+10,,.3,2700.\n"
+                "PBAR,1,1,1.-4,1.-8,1.-8,2.-8\nCBAR,1,1,1,2,0.,0.,1.\nPROD,2,1,1.-4\nCROD,2,2,2,3\n"
+                "PSHELL,3,1,.01,1,,1\nCQUAD4,3,3,1,2,3,4\nCTRIA3,4,3,1,2,3\nCONM2,5,3,,1.5\nCELAS2,6,1.+3,1,1,2,1\n"
+                "PBUSH,7,K,1.+3,1.+3,1.+3,1.+3,1.+3,1.+3\nCBUSH,7,7,3,4,,,,0\nENDDATA\n");
+  const std::string info = object("info kinds.bdf").dump();
+  for (const char* kind :
+       {"beams", "rods", "4-node shells", "3-node shells", "lumped masses", "\"springs\"", "springs in six directions"})
+    EXPECT_THAT(info, HasSubstr(kind));
+}
+
 TEST_F(Cli, ModesAgreeWithTheClosedFormOfTheCantilever) {
   const json info = object("info " + (folder_.path() / "beam_16.msh").string());
   const auto low = info["bounding_box_file_units"]["min"], high = info["bounding_box_file_units"]["max"];
