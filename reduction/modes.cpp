@@ -187,6 +187,18 @@ int settle_low_modes(const Problem& p, Flexible& f) {
   return zero;
 }
 
+// Unit of rounding of K's own numbers: a program's or, in files of fewer digits, what they leave where rigid motions
+// cost no force. At most 1e-12: a K that is further from its rigid motions is not rounded, but different.
+double rounding(const fem::SparseMatrix& K, const Eigen::MatrixXd& rigid) {
+  double unit = std::numeric_limits<double>::epsilon();
+  for (Eigen::Index k = 0; k < rigid.cols(); ++k) {
+    const Eigen::VectorXd force = symmetric_product(K, rigid.col(k)).col(0).cwiseAbs();
+    const Eigen::VectorXd terms = absolute_product(K, rigid.col(k)).col(0);
+    unit = std::max(unit, force.cwiseQuotient(terms.cwiseMax(std::numeric_limits<double>::min())).maxCoeff());
+  }
+  return std::min(unit, 1e-12);
+}
+
 double residual(const Problem& p, const Eigen::MatrixXd& X, const Eigen::MatrixXd& MX, const Eigen::VectorXd& lambda) {
   if (X.cols() == 0) return 0.0;
   const Eigen::MatrixXd R = symmetric_product(p.K, X) - MX * lambda.asDiagonal();
@@ -194,16 +206,16 @@ double residual(const Problem& p, const Eigen::MatrixXd& X, const Eigen::MatrixX
   const Eigen::MatrixXd E = p.at.factor.half_solve(R);  // ‖L⁻¹P r‖ = ‖r‖ in the norm of A⁻¹
   const Eigen::VectorXd each = E.colwise().norm().transpose().cwiseQuotient(scale);
   Eigen::Index worst = 0;
-  // rigid motions stand in null(K) as far as its numbers tell (null_motions): those of files, with 14 digits, leave
-  // more than the rounding of K x; what they leave is reported, and no reason to fail
+  // rigid motions stand in null(K) as far as its numbers tell (null_motions); what they leave is reported, and no
+  // reason to fail
   const Eigen::Index rigid = std::min(p.rigid.cols(), X.cols());
   const double all = each.maxCoeff();
   if (rigid == X.cols()) return all;
   const double most = each.tail(X.cols() - rigid).maxCoeff(&worst);
   worst += rigid;
   if (most <= p.options.residual_limit) return all;
-  // what the rounding of K x alone leaves: its size with the signs of a fixed sequence
-  Eigen::MatrixXd noise = std::numeric_limits<double>::epsilon() * absolute_product(p.K, X.col(worst));
+  // what the rounding of K x and of K itself leaves: its size with the signs of a fixed sequence
+  Eigen::MatrixXd noise = rounding(p.K, p.rigid) * absolute_product(p.K, X.col(worst));
   for (Eigen::Index i = 0; i < noise.rows(); ++i)
     if (std::sin(2.399963229728653 * static_cast<double>(i * i % 1000003)) < 0.0) noise(i, 0) = -noise(i, 0);
   if (most <= 10.0 * p.at.factor.half_solve(noise).norm() / scale[worst]) return all;

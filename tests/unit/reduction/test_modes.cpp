@@ -140,6 +140,28 @@ TEST(Modes, StiffnessRatioOf1e12) {
   EXPECT_NEAR(modes.lambda[1] / 1e12, 1.0 + 1e-12, 1e-11);
 }
 
+// A free chain of springs of 1/3 in 13 digits, 0.3333333333333 and 0.6666666666667: each mass is held by 1e-13 that is
+// rounding, 4e-6 of the lowest λ, and the rigid motion, taken as one, leaves a residual that K x in all digits would
+// not.
+TEST(Modes, NumbersOfThirteenDigits) {
+  const int n = 8000;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int i = 0; i < n; ++i) {
+    entries.emplace_back(i, i, i == 0 || i == n - 1 ? 0.3333333333333 : 0.6666666666667);
+    if (i > 0) entries.emplace_back(i, i - 1, -0.3333333333333);
+  }
+  fem::SparseMatrix K(n, n), M(n, n);
+  K.setFromTriplets(entries.begin(), entries.end());
+  M.setIdentity();
+  const Modes modes = solve_modes(K, M, Eigen::MatrixXd::Ones(n, 1), {.count = 5, .progress = {}});
+  EXPECT_EQ(modes.rigid, 1);
+  EXPECT_GT(modes.max_residual, ModesOptions().residual_limit);
+  for (int j = 1; j < 5; ++j) {
+    const double s = std::sin(j * std::numbers::pi / (2.0 * n));
+    EXPECT_NEAR(modes.lambda[j] / (4.0 / 3.0 * s * s + 1e-13), 1.0, 1e-7) << j;
+  }
+}
+
 TEST(Modes, CountBelowRefusesAShiftOnAnEigenvalue) {
   const Pencil p = uniform_chain(50, 1.0, 1.0, true, true);
   const double s = std::sin(3.0 * std::numbers::pi / 102.0), lambda = 4.0 * s * s;
