@@ -82,10 +82,11 @@ ReducedBody spatial(const SceneBody& body, const BeamSource& beam, const reducti
 ReducedBody planar(const SceneBody& body, const BeamSource& beam, const reduction::ReduceOptions& options) {
   fem::Model model = in_own_axes(body, beam);
   const fem::MassProperties mass = fem::mass_properties(fem::assemble(model));
-  fem::BeamSection& section = model.beam_sections[0];
-  section.Iy = 1e6 * section.Iz;
-  section.J = 1e10 * section.Iz;
-  section.kappa_z = 0.0;  // rigid in shear across the plane
+  for (fem::BeamSection& section : model.beam_sections) {
+    section.Iy = 1e6 * section.Iz;
+    section.J = 1e10 * section.Iz;
+    section.kappa_z = 0.0;  // rigid in shear across the plane
+  }
   ReducedBody reduced = in_plane(reduction::reduce(fem::assemble(model), body.parent_port, options));
   reduced.D = fem::rigid_mass(mass.mass, mass.centre - reduced.reference, mass.inertia);
   return set_into_frame(std::move(reduced), beam);
@@ -126,9 +127,16 @@ fem::Model beam_model(const SceneBody& body, const BeamSource& beam) {
     model.node_ids.push_back(k + 1);
   }
   model.materials = {beam.section.material};
+  const bool tapered = beam.section.taper != nullptr;
   model.beam_sections = {section_of(beam)};
+  for (int k = 1; k <= n && tapered; ++k) {
+    model.beam_sections.push_back(beam.section.taper(static_cast<double>(k) / n));
+    model.tapers.push_back({{0.0, k - 1}, {1.0, k}});
+  }
   for (int k = 0; k < n; ++k)
     model.elements.push_back(fem::Beam{.nodes = {k, k + 1},
+                                       .section = tapered ? k : 0,
+                                       .taper = tapered ? k : -1,
                                        .orientation = *beam.section.orientation,
                                        .rotary_inertia = beam.section.rotary_inertia,
                                        .id = k + 1});

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <variant>
@@ -40,7 +42,9 @@ struct SceneSection {
   fem::Material material;
   std::optional<Vec3> orientation;  ///< beams: needed unless the section is round; a laminate's direction 1
   bool round = false;
-  bool rod = false;  ///< bears axial force and torque alone: A and J of the shape
+  std::function<fem::BeamSection(double)> taper{};  ///< the section at a fraction 0..1 of the way, where it varies
+  std::optional<std::array<Vec3, 2>> along{};       ///< where the way begins and ends; of a `beam`: its ends [m]
+  bool rod = false;                                 ///< bears axial force and torque alone: A and J of the shape
   bool rotary_inertia = true;
   Vec3 offset = Vec3::Zero();  ///< beams [m]
   double normal_offset = 0.0;  ///< shells: from the nodes to the middle surface, along the normal [m]

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
 
 #include "fem/error.hpp"
@@ -34,6 +35,45 @@ double box_shear(double flange, double web, double nu) {
   return 10.0 * (1.0 + nu) * (1.0 + 3.0 * m) * (1.0 + 3.0 * m) /
          ((12.0 + 72.0 * m + 150.0 * m2 + 90.0 * m3) + nu * (11.0 + 66.0 * m + 135.0 * m2 + 90.0 * m3) +
           10.0 * n * n * ((3.0 + nu) * m + 3.0 * m2));
+}
+
+/// A wall of an open section: sizes along y and z, centre.
+struct Wall {
+  double b = 0.0, h = 0.0, y = 0.0, z = 0.0;
+};
+
+struct ShearCentre {
+  double y = 0.0, z = 0.0;
+};
+
+/// Constants about the common centroid; `shear` in the walls' coordinates.
+BeamSection of_walls(const char* name, std::initializer_list<Wall> walls, ShearCentre shear) {
+  BeamSection s{.name = name};
+  double first_y = 0.0, first_z = 0.0, along_y = 0.0, along_z = 0.0;
+  for (const Wall& w : walls) {
+    const double area = w.b * w.h, a = std::max(w.b, w.h), t = std::min(w.b, w.h);
+    s.A += area;
+    first_y += area * w.y;
+    first_z += area * w.z;
+    s.J += a * t * t * t / 3.0;
+    (w.b > w.h ? along_y : along_z) += area;
+  }
+  const double cy = first_y / s.A, cz = first_z / s.A;
+  for (const Wall& w : walls) {
+    const double area = w.b * w.h, y = w.y - cy, z = w.z - cz;
+    s.Iy += area * (w.h * w.h / 12.0 + z * z);
+    s.Iz += area * (w.b * w.b / 12.0 + y * y);
+    s.Iyz += area * y * z;
+  }
+  if (std::abs(s.Iyz) < 1e-14 * std::sqrt(s.Iy * s.Iz)) s.Iyz = 0.0;
+  s.kappa_y = 5.0 / 6.0 * along_y / s.A;
+  s.kappa_z = along_z / s.A;
+  const auto off = [&](double place, double centroid) {
+    return std::abs(place - centroid) < 1e-14 * std::sqrt(s.A) ? 0.0 : place - centroid;
+  };
+  s.shear_y = off(shear.y, cy);
+  s.shear_z = off(shear.z, cz);
+  return s;
 }
 
 }  // namespace
@@ -75,6 +115,41 @@ BeamSection box(double b, double h, double t, double nu) {
           .J = 2.0 * t * bm * bm * hm * hm / (bm + hm),  // Bredt: 4 A_m² t / perimeter
           .kappa_y = box_shear(hm, bm, nu),
           .kappa_z = box_shear(bm, hm, nu)};
+}
+
+BeamSection i_section(double h, double b, double t, double b_top, double t_top, double t_web) {
+  require(t > 0.0 && t_top > 0.0 && t + t_top < h && t_web > 0.0 && t_web <= std::min(b, b_top),
+          fmt::format("an I has height {}, flanges {} x {} and {} x {}, web {}", h, b, t, b_top, t_top, t_web));
+  // the shear centre divides the flanges' middle lines' distance by their second moments
+  const double I = t * b * b * b, I_top = t_top * b_top * b_top * b_top, distance = h - 0.5 * (t + t_top);
+  const double web = h - t - t_top;
+  return of_walls("I", {{b, t, 0.0, 0.5 * t}, {b_top, t_top, 0.0, h - 0.5 * t_top}, {t_web, web, 0.0, t + 0.5 * web}},
+                  {0.0, 0.5 * t + distance * I_top / (I + I_top)});
+}
+
+BeamSection tee(double b, double h, double t, double t_web) {
+  require(t > 0.0 && t < h && t_web > 0.0 && t_web <= b,
+          fmt::format("a T has flange {} x {}, height {} and web {}", b, t, h, t_web));
+  const double web = h - t;
+  return of_walls("T", {{b, t, 0.0, h - 0.5 * t}, {t_web, web, 0.0, 0.5 * web}}, {0.0, h - 0.5 * t});
+}
+
+BeamSection channel(double b, double h, double t, double t_web) {
+  require(t > 0.0 && 2.0 * t < h && t_web > 0.0 && t_web < b,
+          fmt::format("a channel has flanges {} x {}, height {} and web {}", b, t, h, t_web));
+  const double flange = b - t_web, middle = 0.5 * (b + t_web), web = h;
+  const double b_m = b - 0.5 * t_web, h_m = h - t;  // of middle lines
+  const double e = 3.0 * b_m * b_m * t / (6.0 * b_m * t + h_m * t_web);
+  return of_walls("channel",
+                  {{flange, t, middle, 0.5 * t}, {flange, t, middle, h - 0.5 * t}, {t_web, web, 0.5 * t_web, 0.5 * h}},
+                  {0.5 * t_web - e, 0.5 * h});
+}
+
+BeamSection angle_section(double b, double h, double t, double t_web) {
+  require(t > 0.0 && t < h && t_web > 0.0 && t_web < b,
+          fmt::format("an angle has legs {} x {} and {} x {}", b, t, h, t_web));
+  const double leg = h - t;
+  return of_walls("L", {{b, t, 0.5 * b, 0.5 * t}, {t_web, leg, 0.5 * t_web, t + 0.5 * leg}}, {0.5 * t_web, 0.5 * t});
 }
 
 BeamSection rigid_in_shear(BeamSection section) {

@@ -20,6 +20,24 @@ BeamSection rectangle(double b, double h, double nu);
 /// thin-wall approximations, O(t/b).
 BeamSection box(double b, double h, double t, double nu);
 
+/// Open sections of thin walls: A, I about the centroid exact for the rectangles they are made of, J = Σ a t³/3, κ the
+/// share of the walls along the force (5/6 of it where the force bends flanges across), the shear centre by the walls'
+/// middle lines: all three are thin-wall approximations, O(t/b). Webs stand along z, flanges along y.
+/// Source: Young & Budynas, Roark's Formulas for Stress and Strain, 7th ed., tables 9.2, 10.2; Timoshenko, Strength of
+/// Materials I, §53.
+
+/// I of height h, flanges b × t (at −z) and b_top × t_top, web t_web.
+BeamSection i_section(double h, double b, double t, double b_top, double t_top, double t_web);
+
+/// T: one flange b × t on top of a web, overall height h.
+BeamSection tee(double b, double h, double t, double t_web);
+
+/// Channel open towards +y: flanges b × t to both sides of a web t_web, overall height h; b from the web's back.
+BeamSection channel(double b, double h, double t, double t_web);
+
+/// Angle with its corner at −y, −z: leg b × t along y and leg h × t_web along z, overall lengths.
+BeamSection angle_section(double b, double h, double t, double t_web);
+
 /// The same section, rigid in shear: κ → ∞ (Euler-Bernoulli).
 BeamSection rigid_in_shear(BeamSection section);
 

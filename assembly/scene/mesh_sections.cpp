@@ -149,6 +149,44 @@ fem::Element make_element(CellType type, const std::array<int, 4>& nodes, long i
                    .id = id};
 }
 
+/// Sections at the nodes of tapered beams, one for each place along the way.
+class TaperedSections {
+ public:
+  TaperedSections(const SceneSection& section, fem::Model& model) : section_(section), model_(model) {
+    if (section.taper && !section.along)
+      throw InputError(section.place, fmt::format("section '{}' has a `tip` and no way to it", section.set),
+                       "Add `along: [[x, y, z], [x, y, z]]`: where its sizes hold and where those of `tip` do");
+  }
+
+  /// Makes the beam vary from its first node to its second.
+  void taper(fem::Beam& beam) {
+    const fem::Station root{0.0, section_at(beam.nodes[0])}, tip{1.0, section_at(beam.nodes[1])};
+    beam.section = root.section;
+    beam.taper = static_cast<int>(model_.tapers.size());
+    model_.tapers.push_back({root, tip});
+  }
+
+ private:
+  int section_at(int node) {
+    const auto& [from, to] = *section_.along;
+    const Vec3 way = to - from;
+    const double t = (model_.nodes[static_cast<std::size_t>(node)] - from).dot(way) / way.squaredNorm();
+    if (!(t >= -1e-9 && t <= 1.0 + 1e-9))
+      throw InputError(section_.place,
+                       fmt::format("node {} of section '{}' lies beyond `along`, at {:.4g} of the way",
+                                   model_.node_ids[static_cast<std::size_t>(node)], section_.set, t),
+                       "Let `along` span the whole set");
+    const auto [known, added] =
+        known_.try_emplace(std::clamp(t, 0.0, 1.0), static_cast<int>(model_.beam_sections.size()));
+    if (added) model_.beam_sections.push_back(section_.taper(known->first));
+    return known->second;
+  }
+
+  const SceneSection& section_;
+  fem::Model& model_;
+  std::map<double, int> known_;
+};
+
 /// The node in the middle of a quad8, made anew.
 int make_centre(const int* nodes, fem::Model& model) {
   Vec3 centre = Vec3::Zero();
@@ -161,7 +199,7 @@ int make_centre(const int* nodes, fem::Model& model) {
 
 /// Appends the elements of a cell, several for one of second order.
 void add_elements(const CellBlock& block, int cell, const SceneSection& section, int shape, int material,
-                  fem::BeamMass beam_mass, fem::Model& model) {
+                  fem::BeamMass beam_mass, TaperedSections& tapered, fem::Model& model) {
   const int* nodes = &block.nodes[static_cast<std::size_t>(cell * fem::node_count(block.type))];
   const int centre = block.type == CellType::quad8 ? make_centre(nodes, model) : -1;
   for (const Piece& piece : pieces_of(block.type)) {
@@ -170,6 +208,7 @@ void add_elements(const CellBlock& block, int cell, const SceneSection& section,
       corners[i] = centre >= 0 && piece.at[i] == quad8_centre ? centre : nodes[piece.at[i]];
     model.elements.push_back(make_element(piece.type, corners, block.ids[static_cast<std::size_t>(cell)], section,
                                           shape, material, model, beam_mass));
+    if (section.taper) tapered.taper(std::get<fem::Beam>(model.elements.back()));
   }
 }
 
@@ -227,13 +266,16 @@ fem::Model elements_of(const Mesh& mesh, const SceneBody& body, const FeSource& 
       model.shell_sections.push_back(std::get<fem::ShellSection>(section.shape));
     }
   }
+  std::vector<TaperedSections> tapered;
+  for (const SceneSection& section : fe.sections) tapered.emplace_back(section, model);
   const fem::BeamMass beam_mass = fe.beam_mass.value_or(fem::BeamMass::high_order);
   for (std::size_t b = 0; b < mesh.cells.size(); ++b) {
     long count = 0;
     for (std::size_t k = 0; k < cover[b].size(); ++k) {
       if (cover[b][k] < 0) continue;
       const auto s = static_cast<std::size_t>(cover[b][k]);
-      add_elements(mesh.cells[b], static_cast<int>(k), fe.sections[s], shape[s], static_cast<int>(s), beam_mass, model);
+      add_elements(mesh.cells[b], static_cast<int>(k), fe.sections[s], shape[s], static_cast<int>(s), beam_mass,
+                   tapered[s], model);
       ++count;
     }
     note_split(mesh.cells[b], count, model);

@@ -4,6 +4,7 @@
 
 #include "assembly/scene/quantity.hpp"
 #include "assembly/scene/read.hpp"
+#include "fem/elements/section_line.hpp"
 #include "fem/section_shapes.hpp"
 
 namespace tenon::assembly {
@@ -42,21 +43,81 @@ fem::BeamSection read_general(const Value& map, const Units& units) {
     throw InputError(map.find("Iyz")->place, "Iyz² is not below Iy Iz", "Check the section's moments");
   if (const Value* kappa = map.find("kappa_y")) section.kappa_y = positive(*kappa, dimension::none, units, true);
   if (const Value* kappa = map.find("kappa_z")) section.kappa_z = positive(*kappa, dimension::none, units, true);
+  if (const Value* centre = map.find("shear_centre")) {
+    const std::vector<double> yz = quantities(*centre, 2, dimension::length, units);
+    section.shear_y = yz[0];
+    section.shear_z = yz[1];
+  }
   return section;
 }
 
-fem::BeamSection read_beam_shape(const std::string& key, const Value& value, double nu, const Units& units) {
+/// Sizes of a shape; constants of `general` are none.
+struct Sizes {
+  std::vector<double> of;
+  std::optional<fem::BeamSection> general;
+};
+
+Sizes read_sizes(const std::string& key, const Value& value, const Units& units) {
+  if (key == "general") return {{}, read_general(value, units)};
+  if (key == "circle") return {{positive(value, dimension::length, units)}, {}};
+  std::size_t count = key == "tube" || key == "rectangle" ? 2 : key == "box" ? 3 : 4;
+  if (key == "i" && value.items.size() == 6) count = 6;
+  return {quantities(value, count, dimension::length, units), {}};
+}
+
+fem::BeamSection shape_of(const std::string& key, const std::vector<double>& size, double nu) {
+  if (key == "circle") return fem::circle(size[0], nu);
+  if (key == "tube") return fem::tube(size[0], size[1], nu);
+  if (key == "rectangle") return fem::rectangle(size[0], size[1], nu);
+  if (key == "box") return fem::box(size[0], size[1], size[2], nu);
+  if (key == "tee") return fem::tee(size[0], size[1], size[2], size[3]);
+  if (key == "channel") return fem::channel(size[0], size[1], size[2], size[3]);
+  if (key == "angle") return fem::angle_section(size[0], size[1], size[2], size[3]);
+  const bool equal = size.size() == 4;
+  return fem::i_section(size[1], size[0], size[2], equal ? size[0] : size[4], equal ? size[2] : size[5], size[3]);
+}
+
+fem::BeamSection read_beam_shape(const std::string& key, const Value& value, const Sizes& sizes, double nu) {
+  if (sizes.general) return *sizes.general;
   try {
-    if (key == "circle") return fem::circle(positive(value, dimension::length, units), nu);
-    if (key == "general") return read_general(value, units);
-    const std::vector<double> size = quantities(value, key == "box" ? 3 : 2, dimension::length, units);
-    if (key == "tube") return fem::tube(size[0], size[1], nu);
-    if (key == "rectangle") return fem::rectangle(size[0], size[1], nu);
-    return fem::box(size[0], size[1], size[2], nu);
+    return shape_of(key, sizes.of, nu);
   } catch (const ModelError& fault) {
     throw InputError(value.place, fault.what(),
-                     "Sizes are: tube [outer, inner] radii, rectangle [b, h], box [b, h, t]");
+                     "Sizes are: tube [outer, inner] radii, rectangle [b, h], box [b, h, t], i, tee, channel and angle "
+                     "[b, h, flange, web]");
   }
+}
+
+/// Sizes vary linearly from one end to the other, constants of `general` by their roots.
+std::function<fem::BeamSection(double)> read_taper(const std::string& key, const Sizes& root, const Value& tip,
+                                                   double nu, const Units& units) {
+  const Sizes other = read_sizes(key, tip, units);
+  const fem::BeamSection at_tip = read_beam_shape(key, tip, other, nu);  // refuses sizes that make no section
+  if (root.of.size() != other.of.size())
+    throw InputError(tip.place,
+                     fmt::format("found {} sizes, expected {} as at the other end", other.of.size(), root.of.size()),
+                     "Give the same sizes at both ends");
+  if (root.general)
+    return [from = *root.general, at_tip](double t) {
+      fem::BeamSection section = from;
+      fem::between(from, at_tip, t, section);
+      return section;
+    };
+  return [key, from = root.of, to = other.of, nu](double t) {
+    std::vector<double> sizes;
+    for (std::size_t i = 0; i < from.size(); ++i) sizes.push_back((1.0 - t) * from[i] + t * to[i]);
+    return shape_of(key, sizes, nu);
+  };
+}
+
+std::array<Vec3, 2> read_way(const Value& value, const Units& units) {
+  if (value.kind != Value::Kind::list || value.items.size() != 2)
+    throw InputError(value.place, "found no two points", "Write for example along: [[0, 0, 0], [1, 0, 0]]");
+  const std::array<Vec3, 2> way{vector(value.items[0], dimension::length, units),
+                                vector(value.items[1], dimension::length, units)};
+  if (!((way[1] - way[0]).norm() > 0.0))
+    throw InputError(value.place, "the way has no length: both points are one", "Move one of them");
+  return way;
 }
 
 /// Plies of `laminate`; angles from direction 1 of the section.
@@ -105,10 +166,10 @@ void read_shell(const std::string& key, const Value& map, const Materials& mater
                 SceneSection& section) {
   fem::ShellSection shell{.name = section.set};
   if (key == "shell") {
-    refuse(map, {"shear", "orientation"}, "a shell");
+    refuse(map, {"shear", "orientation", "tip", "along", "nsm_centre"}, "a shell");
     shell.thickness = positive(*map.find(key), dimension::length, units);
   } else {
-    refuse(map, {"shear", "material"}, "a laminate");
+    refuse(map, {"shear", "material", "tip", "along", "nsm_centre"}, "a laminate");
     shell.plies = read_plies(*map.find(key), materials, units);
     for (const fem::Ply& ply : shell.plies) shell.thickness += ply.thickness;
     if (const Value* orientation = map.find("orientation")) section.orientation = axis(*orientation);
@@ -145,8 +206,10 @@ SceneSection read_section(const Member& entry, const Value* body_material, const
   const Value& map = entry.value;
   const std::string what = fmt::format("section '{}'", entry.key);
   const Value* material = map.find("material") ? map.find("material") : body_material;
-  const std::string key =
-      one_of(map, {"shell", "laminate", "tube", "circle", "rectangle", "box", "general", "rod"}, what);
+  const std::string key = one_of(
+      map,
+      {"shell", "laminate", "tube", "circle", "rectangle", "box", "i", "tee", "channel", "angle", "general", "rod"},
+      what);
   if (!material && key != "laminate")
     throw InputError(entry.place, fmt::format("{} has no material", what),
                      "Add `material: {E, nu, rho}` or a name (aluminium, steel, titanium) to the section or its body");
@@ -163,7 +226,7 @@ SceneSection read_section(const Member& entry, const Value* body_material, const
   }
 
   if (key == "rod") {
-    refuse(map, {"shear", "orientation", "offset"}, "a rod, which does not bend");
+    refuse(map, {"shear", "orientation", "offset", "tip", "along", "nsm_centre"}, "a rod, which does not bend");
     const Value& rod = *map.find(key);
     fem::BeamSection bar{.name = entry.key};
     bar.A = positive(rod.kind == Value::Kind::map ? *rod.find("A") : rod, dimension::area, units);
@@ -174,18 +237,41 @@ SceneSection read_section(const Member& entry, const Value* body_material, const
     return section;
   }
 
-  fem::BeamSection beam = read_beam_shape(key, *map.find(key), section.material.nu, units);
+  const double nu = section.material.nu;
+  const Sizes sizes = read_sizes(key, *map.find(key), units);
+  fem::BeamSection beam = read_beam_shape(key, *map.find(key), sizes, nu);
+  bool rigid_in_shear = false;
   if (const Value* shear = map.find("shear")) {
     if (const int theory = choice(*shear, {"timoshenko", "rayleigh", "euler-bernoulli"}); theory > 0) {
-      beam = fem::rigid_in_shear(beam);
+      rigid_in_shear = true;
       section.rotary_inertia = theory == 1;
     } else if (beam.kappa_y == 0.0 || beam.kappa_z == 0.0) {
       throw InputError(shear->place, fmt::format("{} has no shear coefficients", what), "Give kappa_y and kappa_z");
     }
   }
+  if (rigid_in_shear) beam = fem::rigid_in_shear(beam);
   beam.name = entry.key;
   if (nsm) beam.nsm = positive(*nsm, dimension::mass_per_length, units, true);
+  if (const Value* centre = map.find("nsm_centre")) {
+    const std::vector<double> yz = quantities(*centre, 2, dimension::length, units);
+    beam.nsm_y = yz[0];
+    beam.nsm_z = yz[1];
+  }
   section.shape = beam;
+  if (const Value* tip = map.find("tip")) {
+    section.taper = [shape = read_taper(key, sizes, *tip, nu, units), beam, rigid_in_shear](double t) {
+      fem::BeamSection at = shape(t);
+      if (rigid_in_shear) at = fem::rigid_in_shear(at);
+      at.name = beam.name;
+      at.nsm = beam.nsm;
+      at.nsm_y = beam.nsm_y;
+      at.nsm_z = beam.nsm_z;
+      return at;
+    };
+    if (const Value* along = map.find("along")) section.along = read_way(*along, units);
+  } else {
+    refuse(map, {"along"}, "a section without `tip`");
+  }
   section.round = key == "tube" || key == "circle";
   if (const Value* orientation = map.find("orientation")) section.orientation = axis(*orientation);
   if (!section.round && !section.orientation)
@@ -203,7 +289,7 @@ BeamSource read_beam(const Value& map, const Materials& materials, const Units& 
     throw InputError(map.find("to")->place, "the beam has no length: `from` and `to` are one point",
                      "Move one of them");
   const Value& section = *map.find("section");
-  refuse(section, {"shell", "laminate", "rod", "offset"}, "a beam");
+  refuse(section, {"shell", "laminate", "rod", "offset", "along"}, "a beam");
   beam.section = read_section({"section", section.place, section}, map.find("material"), materials, units);
   const Vec3 axis = (beam.to - beam.from).normalized();
   if (!beam.section.orientation) beam.section.orientation = axis.unitOrthogonal();
@@ -216,9 +302,16 @@ BeamSource read_beam(const Value& map, const Materials& materials, const Units& 
   if (const Value* elements = map.find("elements")) beam.elements = count(*elements, 1);
   if (const Value* modes = map.find("modes")) beam.modes = count(*modes, 1);
   if (const Value* plane = map.find("plane")) beam.planar = choice(*plane, {"xy"}) == 0;
-  if (beam.planar && std::get<fem::BeamSection>(beam.section.shape).Iyz != 0.0)
-    throw InputError(section.place, "a section with a product of inertia does not bend in one plane",
+  const auto& shape = std::get<fem::BeamSection>(beam.section.shape);
+  const bool centred = shape.shear_y == 0.0 && shape.shear_z == 0.0 && shape.nsm_y == 0.0 && shape.nsm_z == 0.0;
+  if (beam.planar && (shape.Iyz != 0.0 || !centred))
+    throw InputError(section.place,
+                     "a section with a product of inertia, or with its shear centre or mass off the centroid, does not "
+                     "bend in one plane",
                      "Leave `plane` out, or turn the orientation to a principal axis");
+  if (beam.model != BeamSource::Model::fe && (!centred || beam.section.taper))
+    throw InputError(section.place, "titop models are of uniform beams with shear centre and mass at the centroid",
+                     "Take `model: fe`");
   return beam;
 }
 

@@ -24,7 +24,8 @@ const Schema general_section{"a general beam section",
                               {"Iyz", scalar, "product of inertia"},
                               {"J", scalar, "torsion constant", true},
                               {"kappa_y", scalar, "shear coefficient for forces along y"},
-                              {"kappa_z", scalar, "shear coefficient for forces along z"}}};
+                              {"kappa_z", scalar, "shear coefficient for forces along z"},
+                              {"shear_centre", list, "[y, z] from the centroid"}}};
 
 const Schema ply{"a ply",
                  {{"E1", scalar, "Young's modulus along the fibres", true},
@@ -50,7 +51,15 @@ const Schema section{
      {"circle", scalar, "radius"},
      {"rectangle", list, "[b along y, h along z]"},
      {"box", list, "[b along y, h along z, wall thickness], outer sizes"},
+     {"i", list,
+      "[b along y, h along z, flange, web] or with a top flange of its own [b, h, flange, web, b top, flange top]"},
+     {"tee", list, "[b along y, h along z, flange, web], the flange at +z"},
+     {"channel", list, "[b along y, h along z, flanges, web], the web at -y"},
+     {"angle", list, "[b along y, h along z, leg along y, leg along z], the corner at -y, -z"},
      {"general", map, "section constants", false, &general_section},
+     {"tip", scalar | list | map, "the same sizes at the other end of a tapered beam", false, &general_section},
+     {"along", list, "where the sizes hold and where those of `tip` do: two points; of a `beam` its ends"},
+     {"nsm_centre", list, "[y, z] of the non-structural mass, from the beam's centroid"},
      {"rod", scalar | map, "area of a bar that does not bend, or {A, J}", false, &rod_section},
      {"shear", scalar, "timoshenko (default), rayleigh (rotary inertia, no shear) or euler-bernoulli (neither)"},
      {"orientation", list,
@@ -59,8 +68,8 @@ const Schema section{
      {"material", scalar | map, "in place of the body's", false, &material},
      {"nsm", scalar, "non-structural mass per length (beams) or area (shells)"}}};
 
-const Schema rotation{"a rotation",
-                      {{"axis", scalar | list, "x, y, z or a vector", true}, {"angle", scalar, "e.g. 180 deg", true}}};
+const Schema rotation_schema{
+    "a rotation", {{"axis", scalar | list, "x, y, z or a vector", true}, {"angle", scalar, "e.g. 180 deg", true}}};
 
 const Schema port{
     "a port",
@@ -70,7 +79,7 @@ const Schema port{
      {"node", scalar, "the file's own node number"},
      {"kind", scalar, "rigid (default) or average: how a set follows its port"},
      {"axes", list, "the port's x, y and z axes in the body frame"},
-     {"rotate", map, "the port's axes by a rotation", false, &rotation}}};
+     {"rotate", map, "the port's axes by a rotation", false, &rotation_schema}}};
 
 const Schema node_mass{"a mass inside a body",
                        {{"at", list, "the node at this point"},
@@ -96,7 +105,7 @@ const Schema node_spring{"a spring inside a body",
                           {"kr", list, "stiffness about x, y, z of its axes"},
                           {"at", list, "where it acts; midway between the nodes when absent"},
                           {"axes", list, "its x, y and z axes in the body frame"},
-                          {"rotate", map, "its axes by a rotation", false, &rotation}}};
+                          {"rotate", map, "its axes by a rotation", false, &rotation_schema}}};
 
 const Schema rigid{"a rigid body",
                    {{"mass", scalar, "mass", true},

@@ -39,34 +39,34 @@ namespace tenon::fem {
 namespace {
 
 using Mat2 = Eigen::Matrix2d;
-using Table = Eigen::Matrix4d;  // over (v₁, h s₁, v₂, h s₂)
+using ShapeTable = Eigen::Matrix4d;  // over (v₁, h s₁, v₂, h s₂)
 
-Table table(double scale, std::array<double, 16> rows) {
+ShapeTable table(double scale, std::array<double, 16> rows) {
   return scale * Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(rows.data());
 }
 
 // ∫ over ξ in 0..1 of products of the shapes (2), lengths divided out.
-const Table k_H = table(1.0, {12, 6, -12, 6, 6, 4, -6, 2, -12, -6, 12, -6, 6, 2, -6, 4});  // H'' H''
-const Table k_L = table(1.0, {0, 0, 0, 0, 0, 1, 0, -1, 0, 0, 0, 0, 0, -1, 0, 1});          // l' l'
-const Table HH = table(1.0 / 420, {156, 22, 54, -13, 22, 4, 13, -3, 54, 13, 156, -22, -13, -3, -22, 4});
-const Table HL = table(1.0 / 120, {42, 5, 18, -5, 6, 1, 4, -1, 18, 5, 42, -5, -4, -1, -6, 1});
-const Table LL = table(1.0 / 120, {40, 5, 20, -5, 5, 1, 5, -1, 20, 5, 40, -5, -5, -1, -5, 1});
-const Table hh = table(1.0 / 30, {36, 3, -36, 3, 3, 4, -3, -1, -36, -3, 36, -3, 3, -1, -3, 4});  // H' H'
-const Table hl = table(1.0 / 12, {0, -6, 0, -6, 0, 1, 0, -1, 0, 6, 0, 6, 0, -1, 0, 1});          // H' l
-const Table ll = table(1.0 / 6, {0, 0, 0, 0, 0, 2, 0, 1, 0, 0, 0, 0, 0, 1, 0, 2});               // l l
+const ShapeTable k_H = table(1.0, {12, 6, -12, 6, 6, 4, -6, 2, -12, -6, 12, -6, 6, 2, -6, 4});  // H'' H''
+const ShapeTable k_L = table(1.0, {0, 0, 0, 0, 0, 1, 0, -1, 0, 0, 0, 0, 0, -1, 0, 1});          // l' l'
+const ShapeTable HH = table(1.0 / 420, {156, 22, 54, -13, 22, 4, 13, -3, 54, 13, 156, -22, -13, -3, -22, 4});
+const ShapeTable HL = table(1.0 / 120, {42, 5, 18, -5, 6, 1, 4, -1, 18, 5, 42, -5, -4, -1, -6, 1});
+const ShapeTable LL = table(1.0 / 120, {40, 5, 20, -5, 5, 1, 5, -1, 20, 5, 40, -5, -5, -1, -5, 1});
+const ShapeTable hh = table(1.0 / 30, {36, 3, -36, 3, 3, 4, -3, -1, -36, -3, 36, -3, 3, -1, -3, 4});  // H' H'
+const ShapeTable hl = table(1.0 / 12, {0, -6, 0, -6, 0, 1, 0, -1, 0, 6, 0, 6, 0, -1, 0, 1});          // H' l
+const ShapeTable ll = table(1.0 / 6, {0, 0, 0, 0, 0, 2, 0, 1, 0, 0, 0, 0, 0, 1, 0, 2});               // l l
 
-const Table LsLs = table(1.0 / 12, {12, 0, -12, 0, 0, 1, 0, -1, -12, 0, 12, 0, 0, -1, 0, 1});  // G: L' L' = H' L'
+const ShapeTable LsLs = table(1.0 / 12, {12, 0, -12, 0, 0, 1, 0, -1, -12, 0, 12, 0, 0, -1, 0, 1});  // G: L' L' = H' L'
 
 /// A sum of Kronecker products Σ A ⊗ X with its transpose's terms in, over (v₁, h s₁, v₂, h s₂): 2×2 blocks i ≤ j.
 class Transverse {
  public:
   /// += A ⊗ X, both symmetric
-  void add(const Table& A, const Mat2& X) {
+  void add(const ShapeTable& A, const Mat2& X) {
     for (int i = 0, n = 0; i < 4; ++i)
       for (int j = i; j < 4; ++j, ++n) block_[static_cast<std::size_t>(n)] += A(i, j) * X;
   }
   /// += A ⊗ X + A' ⊗ X'
-  void add_with_transpose(const Table& A, const Mat2& X) {
+  void add_with_transpose(const ShapeTable& A, const Mat2& X) {
     const Mat2 Xt = X.transpose();
     for (int i = 0, n = 0; i < 4; ++i)
       for (int j = i; j < 4; ++j, ++n) block_[static_cast<std::size_t>(n)] += A(i, j) * X + A(j, i) * Xt;

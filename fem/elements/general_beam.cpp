@@ -48,7 +48,7 @@ constexpr GaussRule<8> gauss8{{0.019855071751231884, 0.10166676129318664, 0.2372
 constexpr std::size_t max_pieces = 16;
 
 /// x-sections at which the mass is summed.
-struct Point {
+struct MassPoint {
   double x = 0.0, weight = 0.0;  ///< [m], weight with dx in
   std::size_t piece = 0;
   Mat6 G, slope;  ///< G(x), G'(x) of (3)
@@ -97,7 +97,7 @@ class GeneralBeam {
   Mat12 mass() {
     Mat12 M = Mat12::Zero();
     for (std::size_t i = 0; i < points_; ++i) {
-      const Point& p = point_[i];
+      const MassPoint& p = point_[i];
       line_.at(p.piece, p.x / h_, section_);
       const Mat612 N = shapes(p);
       M.noalias() += p.weight * N.transpose() * (section_mass() * N).eval();
@@ -110,7 +110,7 @@ class GeneralBeam {
   Mat12 geometric_stiffness(double axial_force) {
     Mat12 K = Mat12::Zero();
     for (std::size_t i = 0; i < points_; ++i) {
-      const Point& p = point_[i];
+      const MassPoint& p = point_[i];
       line_.at(p.piece, p.x / h_, section_);
       const Mat612 slope = slopes(p);
       const double wagner = (section_.Iy + section_.Iz) / section_.A;
@@ -177,7 +177,7 @@ class GeneralBeam {
       const double from = h_ * line_.begin(piece), to = h_ * line_.begin(piece + 1);
       for (std::size_t g = 0; g < n; ++g) {
         advance(piece, from + rule.at[g] * (to - from));
-        Point& p = point_[points_++];
+        MassPoint& p = point_[points_++];
         p.x = x;
         p.weight = rule.weight[g] * (to - from);
         p.piece = piece;
@@ -191,12 +191,12 @@ class GeneralBeam {
   }
 
   /// N of (4), and its derivative
-  Mat612 shapes(const Point& p) const {
+  Mat612 shapes(const MassPoint& p) const {
     Mat612 N = p.G * end_force_;
     N.leftCols<6>() += tau(Vec3(p.x, 0.0, 0.0));
     return N;
   }
-  Mat612 slopes(const Point& p) const {
+  Mat612 slopes(const MassPoint& p) const {
     Mat612 slope = p.slope * end_force_;
     slope(1, 5) += 1.0;
     slope(2, 4) -= 1.0;
@@ -222,7 +222,7 @@ class GeneralBeam {
   }
 
   /// (6), (7)
-  void add_high_order(const Point& p, Mat12& M) const {
+  void add_high_order(const MassPoint& p, Mat12& M) const {
     const BeamSection& s = section_;
     const double m = material_.rho * s.A + s.nsm, I_p = material_.rho * (s.Iy + s.Iz);
     const Mat6 f = flexibility();
@@ -263,7 +263,7 @@ class GeneralBeam {
   double h_;
   BeamSection section_;  ///< where the integration stands
   bool twists_ = true;   ///< J > 0
-  std::array<Point, 8 * max_pieces> point_;
+  std::array<MassPoint, 8 * max_pieces> point_;
   std::size_t points_ = 0;
   Mat6 G_h_;
   Mat612 gamma_, end_force_;

@@ -4,9 +4,12 @@
 
 namespace tenon::fem {
 
-/// The sections along a beam. Between two stations
-///   √A, ⁴√I, ⁴√J vary linearly, as in a bar whose sizes all grow in proportion (Iyz as √(Iy Iz), κ, nsm and centres
-///   linearly); other tapers are met by more stations or elements, with an error O(h²) of the change in one.
+/// Constants at a fraction t of the way between two sections; the name stays as it is. √A, ⁴√I, ⁴√J vary linearly, as
+/// in a bar whose sizes all grow in proportion (Iyz as √(Iy Iz), κ, nsm and centres linearly); other tapers are met by
+/// more stations or elements, with an error O(h²) of the change in one.
+void between(const BeamSection& a, const BeamSection& b, double t, BeamSection& out);
+
+/// The sections along a beam.
 class SectionLine {
  public:
   SectionLine(const Model& model, const Beam& beam);

@@ -37,7 +37,7 @@ BodyCheck check_fe(const assembly::Scene& scene, const assembly::SceneBody& body
   if (!model.supports.empty()) {
     findings.push_back(remark(body.name,
                               fmt::format("{} dofs are held to the inertial frame by `fix`{}", model.supports.size(),
-                                          scene.joints.empty() ? ": solve with `tenon modes --full`"
+                                          scene.joints.empty() ? ": solve with `tenon modes`"
                                                                : ", so it cannot be reduced and joined"),
                               scene.joints.empty()));
     if (sound) structure = fem::assemble(model);

@@ -95,6 +95,11 @@ void print_people(const assembly::Scene& scene, const assembly::SystemModes& mod
                       scene.requirement.tolerance, full->within ? "met" : "NOT met"));
 }
 
+bool is_held(const assembly::SceneBody& body) {
+  const auto* fe = std::get_if<assembly::FeSource>(&body.source);
+  return fe && !fe->supports.empty();
+}
+
 }  // namespace
 
 int modes_of_scene(const ModesOptions& command) {
@@ -102,7 +107,7 @@ int modes_of_scene(const ModesOptions& command) {
   if (!command.clamp.empty())
     throw InputError({command.file.string()}, "--clamp is for decks", "Write `ground: [body.port]` into the scene");
   const assembly::SceneBody& first = scene.bodies.front();
-  if (scene.bodies.size() == 1 && first.ports.empty() && first.has_model())
+  if (scene.bodies.size() == 1 && first.has_model() && (first.ports.empty() || is_held(first)))
     return modes_of_model(command, assembly::build_model(first), {});
 
   std::optional<ProgressBar> bar(std::in_place);

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "fem/error.hpp"
@@ -55,6 +56,52 @@ TEST(SectionShapes, BoxHasTheDifferenceOfTwoRectangles) {
   EXPECT_NEAR(section.J, 4.0 * std::pow(0.19 * 0.29, 2) * 0.01 / (2.0 * (0.19 + 0.29)), 1e-16);  // Bredt: 4A²t/s
   EXPECT_NEAR(box(0.1, 0.1, 0.001, 0.3).kappa_y, box(0.1, 0.1, 0.001, 0.3).kappa_z, 1e-15);
   EXPECT_NEAR(box(2e-5, 1.0, 9e-6, 0.3).kappa_z, 13.0 / 15.3, 1e-3);  // no flanges left: two thin webs
+}
+
+// Rolled sections without fillets: I as the difference of rectangles, parallel-axis theorem by hand.
+TEST(SectionShapes, OpenSectionsAreMadeOfRectangles) {
+  const BeamSection i = i_section(0.2, 0.1, 0.01, 0.1, 0.01, 0.006);
+  EXPECT_NEAR(i.A, 2.0 * 0.1 * 0.01 + 0.18 * 0.006, 1e-16);
+  EXPECT_NEAR(i.Iy, (0.1 * 0.008 - 0.094 * 0.18 * 0.18 * 0.18) / 12.0, 1e-17);
+  EXPECT_NEAR(i.Iz, (2.0 * 0.01 * 1e-3 + 0.18 * 0.006 * 0.006 * 0.006) / 12.0, 1e-18);
+  EXPECT_NEAR(i.J, (2.0 * 0.1 * 1e-6 + 0.18 * 0.006 * 0.006 * 0.006) / 3.0, 1e-18);
+  EXPECT_EQ(i.Iyz, 0.0);
+  EXPECT_EQ(i.shear_y, 0.0);
+  EXPECT_EQ(i.shear_z, 0.0);
+  const BeamSection t = tee(0.1, 0.11, 0.01, 0.01);  // flange and web alike: the centroid midway between theirs
+  EXPECT_NEAR(t.A, 0.002, 1e-17);
+  EXPECT_NEAR(t.Iy, (0.1 * 1e-6 + 0.01 * 1e-3) / 12.0 + 0.002 * 0.0275 * 0.0275, 1e-17);
+  EXPECT_NEAR(t.shear_z, 0.0275, 1e-16);  // in the flange
+}
+
+// An I with two flanges: its shear centre divides their distance as I₂ : I₁ (Roark, table 9.2).
+TEST(SectionShapes, ShearCentreOfAnIWithTwoFlanges) {
+  const BeamSection section = i_section(0.2, 0.15, 0.01, 0.05, 0.01, 0.005);
+  const double of_bottom = 0.19 * 0.05 * 0.05 * 0.05 / (0.15 * 0.15 * 0.15 + 0.05 * 0.05 * 0.05);  // from its middle
+  const double centroid = (0.0015 * 0.005 + 0.0005 * 0.195 + 0.0009 * 0.1) / 0.0029;
+  EXPECT_NEAR(section.shear_z, 0.005 + of_bottom - centroid, 1e-15);
+  EXPECT_EQ(section.shear_y, 0.0);
+}
+
+// A channel's shear centre lies e = 3b²t/(6bt + h t_w) behind the web's middle (Timoshenko, Strength of Materials I,
+// §53).
+TEST(SectionShapes, ShearCentreOfAChannel) {
+  const double b = 0.05, h = 0.1, t = 1e-4;
+  const BeamSection section = channel(b + 0.5 * t, h + t, t, t);                   // middle lines of b and h
+  const double e = 3.0 * b * b / (6.0 * b + h), centroid = b * b / (2.0 * b + h);  // both from the web's middle line
+  EXPECT_NEAR(section.shear_y, -e - centroid, 1e-3 * e);                           // thin wall: O(t/b)
+  EXPECT_EQ(section.shear_z, 0.0);
+  EXPECT_EQ(section.Iyz, 0.0);
+}
+
+// Equal legs of middle lines a: Iyz = −a³t/8, I at 45° a³t/12 and a³t/3 (Roark, table A.1); shear centre in the corner.
+TEST(SectionShapes, AnglesHaveAProductOfInertia) {
+  const double a = 0.1, t = 1e-5;
+  const BeamSection section = angle_section(a, a, t, t);
+  EXPECT_NEAR(section.Iyz / (a * a * a * t), -1.0 / 8.0, 1e-3);
+  EXPECT_NEAR((section.Iy + section.Iyz) / (a * a * a * t), 5.0 / 24.0 - 1.0 / 8.0, 1e-3);
+  EXPECT_NEAR(section.shear_y, -a / 4.0, 1e-4 * a);
+  EXPECT_NEAR(section.shear_z, -a / 4.0, 1e-4 * a);
 }
 
 TEST(SectionShapes, SizesThatMakeNoSectionAreRefused) {
