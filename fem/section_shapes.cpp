@@ -6,6 +6,7 @@
 #include <cmath>
 #include <initializer_list>
 #include <numbers>
+#include <utility>
 
 #include "fem/error.hpp"
 
@@ -28,10 +29,10 @@ double torsion_constant(double a, double b) {
   return a * b * b * b / 3.0 * (1.0 - 192.0 / std::pow(pi, 5) * b / a * sum);
 }
 
-/// Cowper's coefficient of a thin-walled box for shear along `web`: flange and web are mid-line lengths of the sides
-/// across and along the force; m = flange/web for one wall thickness, n = flange/web.
-double box_shear(double flange, double web, double nu) {
-  const double n = flange / web, m = n, m2 = m * m, m3 = m2 * m;
+/// Cowper's coefficient of a thin-walled box: m = flange area / web area, n = flange length / web length, by mid-lines;
+/// webs stand along the force.
+double box_shear(double m, double n, double nu) {
+  const double m2 = m * m, m3 = m2 * m;
   return 10.0 * (1.0 + nu) * (1.0 + 3.0 * m) * (1.0 + 3.0 * m) /
          ((12.0 + 72.0 * m + 150.0 * m2 + 90.0 * m3) + nu * (11.0 + 66.0 * m + 135.0 * m2 + 90.0 * m3) +
           10.0 * n * n * ((3.0 + nu) * m + 3.0 * m2));
@@ -105,16 +106,21 @@ BeamSection rectangle(double b, double h, double nu) {
           .kappa_z = kappa};
 }
 
-BeamSection box(double b, double h, double t, double nu) {
-  require(t > 0.0 && 2.0 * t < std::min(b, h), fmt::format("a box has outer sides {} and {} and wall {}", b, h, t));
-  const double bi = b - 2.0 * t, hi = h - 2.0 * t, bm = b - t, hm = h - t;
+BeamSection box(double b, double h, double t, double nu) { return box(b, h, t, t, nu); }
+
+BeamSection box(double b, double h, double t_flange, double t_web, double nu) {
+  require(t_flange > 0.0 && 2.0 * t_flange < h && t_web > 0.0 && 2.0 * t_web < b,
+          t_flange == t_web ? fmt::format("a box has outer sides {} and {} and wall {}", b, h, t_web)
+                            : fmt::format("a box has outer sides {} and {}, flanges {} and webs {}", b, h, t_flange, t_web));
+  const double bi = b - 2.0 * t_web, hi = h - 2.0 * t_flange, bm = b - t_web, hm = h - t_flange;
+  const double m = bm * t_flange / (hm * t_web), n = bm / hm;
   return {.name = "box",
           .A = b * h - bi * hi,
           .Iy = (b * h * h * h - bi * hi * hi * hi) / 12.0,
           .Iz = (h * b * b * b - hi * bi * bi * bi) / 12.0,
-          .J = 2.0 * t * bm * bm * hm * hm / (bm + hm),  // Bredt: 4 A_m² t / perimeter
-          .kappa_y = box_shear(hm, bm, nu),
-          .kappa_z = box_shear(bm, hm, nu)};
+          .J = 2.0 * bm * bm * hm * hm / (bm / t_flange + hm / t_web),  // Bredt: 4 A_m² / ∮ ds/t
+          .kappa_y = box_shear(1.0 / m, 1.0 / n, nu),
+          .kappa_z = box_shear(m, n, nu)};
 }
 
 BeamSection i_section(double h, double b, double t, double b_top, double t_top, double t_web) {
@@ -150,6 +156,14 @@ BeamSection angle_section(double b, double h, double t, double t_web) {
           fmt::format("an angle has legs {} x {} and {} x {}", b, t, h, t_web));
   const double leg = h - t;
   return of_walls("L", {{b, t, 0.5 * b, 0.5 * t}, {t_web, leg, 0.5 * t_web, t + 0.5 * leg}}, {0.5 * t_web, 0.5 * t});
+}
+
+BeamSection swapped_axes(BeamSection s) {
+  std::swap(s.Iy, s.Iz);
+  std::swap(s.kappa_y, s.kappa_z);
+  std::swap(s.shear_y, s.shear_z);
+  std::swap(s.nsm_y, s.nsm_z);
+  return s;
 }
 
 BeamSection rigid_in_shear(BeamSection section) {

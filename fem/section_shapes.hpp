@@ -20,6 +20,9 @@ BeamSection rectangle(double b, double h, double nu);
 /// thin-wall approximations, O(t/b).
 BeamSection box(double b, double h, double t, double nu);
 
+/// The same with flanges (along y) and webs (along z) of different thickness.
+BeamSection box(double b, double h, double t_flange, double t_web, double nu);
+
 /// Open sections of thin walls: A, I about the centroid exact for the rectangles they are made of, J = Σ a t³/3, κ the
 /// share of the walls along the force (5/6 of it where the force bends flanges across), the shear centre by the walls'
 /// middle lines: all three are thin-wall approximations, O(t/b). Webs stand along z, flanges along y.
@@ -37,6 +40,9 @@ BeamSection channel(double b, double h, double t, double t_web);
 
 /// Angle with its corner at −y, −z: leg b × t along y and leg h × t_web along z, overall lengths.
 BeamSection angle_section(double b, double h, double t, double t_web);
+
+/// The mirror image in the line y = z: what stood along z stands along y.
+BeamSection swapped_axes(BeamSection section);
 
 /// The same section, rigid in shear: κ → ∞ (Euler-Bernoulli).
 BeamSection rigid_in_shear(BeamSection section);

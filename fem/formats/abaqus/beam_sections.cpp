@@ -24,20 +24,8 @@ void box_section(const DataLines& line, double nu, DraftBeamSection& out) {
     out.unread = "BOX with walls that differ from their opposite ones: its centroid lies off the nodes";
     return;
   }
-  if (t1 == t2) {
-    out.section = box(a, b, t1, nu);
-    return;
-  }
   if (!(2.0 * t1 < a && 2.0 * t2 < b)) line.fail(2, "walls thinner than half the box");
-  const double ai = a - 2.0 * t1, bi = b - 2.0 * t2, am = a - t1, bm = b - t2;
-  const BeamSection thin = box(a, b, 0.5 * (t1 + t2), nu);  // κ depends on the walls' ratio in the third digit only
-  out.section = {.name = "box",
-                 .A = a * b - ai * bi,
-                 .Iy = (a * b * b * b - ai * bi * bi * bi) / 12.0,
-                 .Iz = (b * a * a * a - bi * ai * ai * ai) / 12.0,
-                 .J = 4.0 * am * am * bm * bm / (2.0 * (am / t2 + bm / t1)),  // Bredt
-                 .kappa_y = thin.kappa_y,
-                 .kappa_z = thin.kappa_z};
+  out.section = box(a, b, t2, t1, nu);
 }
 
 // l: nodes above the bottom; h along n2; flanges b1 (bottom) t1, b2 (top) t2; web t3

@@ -173,8 +173,8 @@ void sort_cards(const Text& text, Draft& draft);
 // The steps, in the order of their calls.
 void read_grids(Draft& draft);          ///< GRDSET, CORDij, GRID
 void read_scalar_points(Draft& draft);  ///< SPOINT, QSET
-void read_elements(Draft& draft);       ///< MAT1/2/8, PBAR, PROD, PTUBE, PSHELL, PCOMP, BAROR, CBAR, CROD, CONROD,
-                                        ///< CTUBE, shells, CONM2, and those of read_springs
+void read_elements(Draft& draft);  ///< MAT1/2/8, PBAR, PBARL, PBEAM, PBEAML, PROD, PTUBE, PSHELL, PCOMP, CBAR, CBEAM,
+                                   ///< CROD, CONROD, CTUBE, shells, CONM2, and those of read_springs
 void read_springs(Draft& draft, Register& elements);  ///< PELAS, CELAS1..4, PBUSH, CBUSH
 void lump_masses(Draft& draft);                       ///< without PARAM,COUPMASS
 void read_links(Draft& draft);                        ///< RBE2, RBE3

@@ -6,52 +6,22 @@
 #include <numbers>
 #include <span>
 
-#include "fem/formats/nastran/properties.hpp"
+#include "fem/formats/nastran/beams.hpp"
 
 namespace tenon::fem::nastran {
 namespace {
-
-constexpr std::array<CellType, 6> block_types{CellType::line,   CellType::quad,  CellType::triangle,
-                                              CellType::vertex, CellType::quad8, CellType::triangle6};
-
-/// The mesh's blocks while they grow, one a cell type, with their sets.
-struct Cells {
-  std::array<CellBlock, block_types.size()> blocks;
-  std::map<std::string, std::array<std::vector<int>, block_types.size()>> sets;
-
-  template <class Nodes>
-  void add(std::size_t block, const Nodes& nodes, long id, const std::string& set) {
-    sets[set][block].push_back(static_cast<int>(blocks[block].ids.size()));
-    blocks[block].nodes.insert(blocks[block].nodes.end(), nodes.begin(), nodes.end());
-    blocks[block].ids.push_back(id);
-  }
-
-  void finish(Mesh& mesh) {
-    for (std::size_t b = 0; b < blocks.size(); ++b) {
-      if (blocks[b].ids.empty()) continue;
-      blocks[b].type = block_types[b];
-      mesh.cells.push_back(std::move(blocks[b]));
-      for (auto& [name, cells] : sets) mesh.cell_sets[name].push_back(std::move(cells[b]));
-    }
-  }
-};
 
 struct ElementReader {
   Draft& draft;
   Properties properties;
   Register known{"element"};
-  Cells cells;
-  std::optional<Card> bar_defaults;  ///< BAROR
+  ElementCells cells;
 
   const Vec3& at(int node) const { return draft.deck.model.nodes[static_cast<std::size_t>(node)]; }
   const Mat3& axes(int node) const { return draft.axes[static_cast<std::size_t>(node)]; }
   void carry(int node) { draft.carries[static_cast<std::size_t>(node)] = true; }
 
-  void bar(const Card& card);
   void rod(const Card& card, const Property& property, int first_node);
-  Vec3 orientation(const Card& card, int node_a) const;
-  std::string offset_codes(const Card& card) const;
-  Vec3 offset(const Card& card, int first, const char* label, char code, int node) const;
   Vec3 material_axis(const Card& card, int field, const Vec3& a, const Vec3& b, const Vec3& normal) const;
   void corner_thickness(const Card& card, int tflag, int first, int n, double thickness) const;
   template <class Shell>
@@ -60,76 +30,6 @@ struct ElementReader {
   void second_order_shell(const Card& card);
   void point_mass(const Card& card);
 };
-
-/// OFFT, three letters: where the orientation vector and the two offsets are given.
-std::string ElementReader::offset_codes(const Card& card) const {
-  const Card& source = card.blank(8) && bar_defaults ? *bar_defaults : card;
-  const std::string codes = source.blank(8) ? "GGG" : upper(source.at(8));
-  const auto known_code = [&](std::size_t i, std::string_view allowed) {
-    return i < codes.size() && allowed.find(codes[i]) != std::string_view::npos;
-  };
-  if (codes.size() != 3 || !known_code(0, "GB") || !known_code(1, "GOE") || !known_code(2, "GOE"))
-    source.fail(8, "OFFT", "three letters such as GGG or BGG");
-  return codes;
-}
-
-// v from components in the displacement frame of GA (or basic), or from GA towards G0
-Vec3 ElementReader::orientation(const Card& card, int node_a) const {
-  const bool own = !card.blank(5) || !card.blank(6) || !card.blank(7);
-  if (!own && !bar_defaults)
-    card.fail(5, "X1/G0", "a grid or a vector that fixes the orientation of the section (BAROR gives none either)");
-  const Card& source = own ? card : *bar_defaults;
-  if (parse_integer(source.at(5)) && source.blank(6) && source.blank(7))
-    return at(draft.node(source, 5, "G0")) - at(node_a);
-  const Vec3 v(source.real(5, "X1", 0.0), source.real(6, "X2", 0.0), source.real(7, "X3", 0.0));
-  return offset_codes(card)[0] == 'B' ? v : Vec3(axes(node_a) * v);
-}
-
-Vec3 ElementReader::offset(const Card& card, int first, const char* label, char code, int node) const {
-  const Vec3 w(card.real(first, label, 0.0), card.real(first + 1, label, 0.0), card.real(first + 2, label, 0.0));
-  if (code != 'G' && w != Vec3::Zero())
-    card.fail(8, "OFFT", "G for this end: offsets in the element's own frame are not read");
-  return axes(node) * w;
-}
-
-void ElementReader::bar(const Card& card) {
-  Beam beam;
-  beam.id = card.id(1, "EID");
-  if (!known.admit(beam.id, card, draft.losses)) return;
-  const Card& named = card.blank(2) && bar_defaults && !bar_defaults->blank(2) ? *bar_defaults : card;
-  const Property& property = Properties::find(properties.bars, "PBAR", named, 2);
-  beam.section = property.section;
-  beam.material = property.material;
-  beam.nodes = {draft.node(card, 3, "GA"), draft.node(card, 4, "GB")};
-  beam.orientation = orientation(card, beam.nodes[0]);
-  const std::string codes = offset_codes(card);
-  beam.offsets = {offset(card, 11, "WA", codes[1], beam.nodes[0]), offset(card, 14, "WB", codes[2], beam.nodes[1])};
-  for (const int pin : {9, 10}) {
-    const unsigned flags = card.components(pin, pin == 9 ? "PA" : "PB");
-    if (flags != 0 && draft.deck.coupled_mass)
-      draft.losses.add_physical("CBAR pin flags",
-                                "with COUPMASS: how it shares the mass of a bar with released ends is not known here",
-                                card.place(pin));
-    beam.releases[static_cast<std::size_t>(pin - 9)] = static_cast<Directions>(flags);
-  }
-
-  const Vec3 a = at(beam.nodes[0]) + beam.offsets[0], b = at(beam.nodes[1]) + beam.offsets[1], axis = b - a;
-  if (!(axis.norm() > 1e-12 * (a.norm() + b.norm())))
-    card.refuse(3, fmt::format("{} has no length: both ends lie at ({:g}, {:g}, {:g})", beam.id, a.x(), a.y(), a.z()),
-                "Join coincident grids by an RBE2, or correct the grids");
-  if (!(axis.cross(beam.orientation).norm() > 1e-9 * axis.norm() * beam.orientation.norm()))
-    card.refuse(5, fmt::format("{} has an orientation vector along its own axis (or of no length)", beam.id),
-                "Give a vector or a grid G0 off the bar's axis");
-  if (draft.deck.coupled_mass) {
-    beam.mass = BeamMass::nastran;
-    beam.rotary_inertia = false;
-  }
-  carry(beam.nodes[0]);
-  carry(beam.nodes[1]);
-  const auto& section = draft.deck.model.beam_sections[static_cast<std::size_t>(beam.section)];
-  cells.add(0, beam.nodes, beam.id, section.name);
-  draft.deck.model.elements.emplace_back(beam);
-}
 
 // G1 G2; torsion acts between the rotations about the line that joins them
 void ElementReader::rod(const Card& card, const Property& property, int first_node) {
@@ -285,18 +185,13 @@ void ElementReader::point_mass(const Card& card) {
 
 void read_elements(Draft& draft) {
   MaterialIndex materials;
-  ElementReader reader{draft, read_properties(draft, materials), Register{"element"}, {}, {}};
-  for (const Card& card : draft.take("BAROR")) {
-    if (reader.bar_defaults && !reader.bar_defaults->same_as(card))
-      card.refuse(0, "stands twice", "Keep one BAROR card");
-    reader.bar_defaults = card;
-  }
+  ElementReader reader{draft, read_properties(draft, materials), Register{"element"}, {}};
   std::size_t count = draft.deck.model.elements.size();
-  for (const char* name : {"CBAR", "CROD", "CONROD", "CTUBE", "CQUAD4", "CQUADR", "CTRIA3", "CTRIAR", "CONM2"})
+  for (const char* name : {"CBAR", "CBEAM", "CROD", "CONROD", "CTUBE", "CQUAD4", "CQUADR", "CTRIA3", "CTRIAR", "CONM2"})
     if (const auto found = draft.cards.find(name); found != draft.cards.end()) count += found->second.size();
   draft.deck.model.elements.reserve(count);
   const auto is_new = [&](const Card& card) { return reader.known.admit(card.id(1, "EID"), card, draft.losses); };
-  for (const Card& card : draft.take("CBAR")) reader.bar(card);
+  read_beams(draft, reader.properties, reader.known, reader.cells);
   for (const Card& card : draft.take("CROD"))
     if (is_new(card)) reader.rod(card, Properties::find(reader.properties.rods, "PROD", card, 2), 3);
   for (const Card& card : draft.take("CTUBE"))

@@ -1,7 +1,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
+#include "fem/elements/beam_frame.hpp"
+#include "fem/elements/section_line.hpp"
 #include "fem/formats/nastran/draft.hpp"
 
 namespace tenon::fem::nastran {
@@ -62,6 +65,10 @@ std::array<double, 3> nodal_areas(const std::array<Vec3, 3>& x) {
   return {third, third, third};
 }
 
+/// Points and weights on 0..1, exact to degree 5.
+constexpr std::array<std::pair<double, double>, 3> gauss_3{
+    {{0.1127016653792583, 5.0 / 18.0}, {0.5, 8.0 / 18.0}, {0.8872983346207417, 5.0 / 18.0}}};
+
 struct Lumper {
   Model& model;
   Massless<Material> materials{model.materials, &Material::rho};
@@ -78,17 +85,7 @@ struct Lumper {
       masses.emplace_back(PointMass{node, mass, Mat3::Zero(), offset, id});
   }
 
-  void operator()(Beam& beam) {
-    const auto& section = model.beam_sections[static_cast<std::size_t>(beam.section)];
-    const double rho = model.materials[static_cast<std::size_t>(beam.material)].rho;
-    const double length = (at(beam.nodes[1]) + beam.offsets[1] - at(beam.nodes[0]) - beam.offsets[0]).norm();
-    const double half = 0.5 * (rho * section.A + section.nsm) * length;
-    put(beam.nodes[0], half, beam.offsets[0], beam.id);
-    put(beam.nodes[1], half, beam.offsets[1], beam.id);
-    beam.section = beam_sections.of(beam.section);
-    beam.material = materials.of(beam.material);
-  }
-
+  void operator()(Beam& beam);
   template <class Shell>
   void lump_shell(Shell& shell) {
     const auto& section = model.shell_sections[static_cast<std::size_t>(shell.section)];
@@ -119,6 +116,44 @@ struct Lumper {
   }
 };
 
+/// Half of the mass to each end, at the centroid and at the centre of the non-structural mass; of a section that
+/// varies, what keeps mass and first moment.
+void Lumper::operator()(Beam& beam) {
+  const double rho = model.materials[static_cast<std::size_t>(beam.material)].rho;
+  const SectionLine line(model, beam);
+  if (line.plain()) {
+    const BeamSection& s = line.section(0);
+    const double length = (at(beam.nodes[1]) + beam.offsets[1] - at(beam.nodes[0]) - beam.offsets[0]).norm();
+    for (std::size_t i = 0; i < 2; ++i)
+      put(beam.nodes[i], 0.5 * (rho * s.A + s.nsm) * length, beam.offsets[i], beam.id);
+  } else {
+    const BeamFrame frame(beam, model.nodes);
+    BeamSection s;
+    std::array<double, 2> structural{};
+    std::array<Vec3, 2> moment{Vec3::Zero(), Vec3::Zero()};
+    std::array<double, 2> other{};
+    for (std::size_t piece = 0; piece < line.pieces(); ++piece) {
+      const double from = line.begin(piece), length = line.begin(piece + 1) - from;
+      for (const auto& [x, w] : gauss_3) {  // exact for √A linear and centres linear with their mass
+        const double t = from + length * x;
+        line.at(piece, t, s);
+        for (std::size_t i = 0; i < 2; ++i) {
+          const double share = w * length * frame.h * (i == 0 ? 1.0 - t : t);
+          structural[i] += share * rho * s.A;
+          other[i] += share * s.nsm;
+          moment[i] += share * s.nsm * Vec3(0.0, s.nsm_y, s.nsm_z);
+        }
+      }
+    }
+    for (std::size_t i = 0; i < 2; ++i) {
+      put(beam.nodes[i], structural[i], beam.offsets[i], beam.id);
+      if (other[i] > 0.0) put(beam.nodes[i], other[i], beam.offsets[i] + frame.R * moment[i] / other[i], beam.id);
+    }
+  }
+  beam.section = beam_sections.of(beam.section);
+  beam.material = materials.of(beam.material);
+}
+
 }  // namespace
 
 void lump_masses(Draft& draft) {
@@ -126,6 +161,8 @@ void lump_masses(Draft& draft) {
   Lumper lumper{.model = draft.deck.model, .masses = {}};
   auto& elements = draft.deck.model.elements;
   for (Element& element : elements) std::visit(lumper, element);
+  for (auto& stations : draft.deck.model.tapers)
+    for (Station& station : stations) station.section = lumper.beam_sections.of(station.section);
   elements.reserve(elements.size() + lumper.masses.size() +
                    static_cast<std::size_t>(std::ranges::count_if(lumper.at_nodes, [](double m) { return m != 0.0; })));
   elements.insert(elements.end(), lumper.masses.begin(), lumper.masses.end());

@@ -49,33 +49,6 @@ MaterialIndex read_materials(Draft& draft) {
   return index;
 }
 
-void read_bars(Draft& draft, const MaterialIndex& materials, Properties& properties) {
-  Register known("PBAR");
-  for (const Card& card : draft.take("PBAR")) {
-    const long id = card.id(1, "PID");
-    if (!known.admit(id, card, draft.losses)) continue;
-    BeamSection s;
-    s.name = fmt::format("pbar {}", id);
-    s.A = card.non_negative(3, "A", 0.0);
-    s.Iz = card.non_negative(4, "I1", 0.0);  // plane 1 is the element's x–y plane
-    s.Iy = card.non_negative(5, "I2", 0.0);
-    s.J = card.non_negative(6, "J", 0.0);
-    s.nsm = card.non_negative(7, "NSM", 0.0);
-    s.kappa_y = card.non_negative(17, "K1", 0.0);
-    s.kappa_z = card.non_negative(18, "K2", 0.0);
-    s.Iyz = card.real(19, "I12", 0.0);
-    if (s.Iyz * s.Iyz > s.Iy * s.Iz)
-      card.fail(19, "I12", fmt::format("I12² at most I1·I2 = {:g}, as of every real section", s.Iy * s.Iz));
-    if (s.Iyz != 0.0 && (s.kappa_y != 0.0 || s.kappa_z != 0.0)) {
-      draft.losses.add("PBAR", "K1 and K2 have no effect beside I12, as in Nastran");
-      s.kappa_y = s.kappa_z = 0.0;
-    }
-    properties.bars.emplace(
-        id, Property{static_cast<int>(draft.deck.model.beam_sections.size()), material(materials, card, 2, "MID")});
-    draft.deck.model.beam_sections.push_back(s);
-  }
-}
-
 // OD and T, which is half of OD where it is blank or zero: a solid bar
 Property tube_property(Draft& draft, const MaterialIndex& materials, const Card& card) {
   const double od = card.positive(3, "OD"), t = card.non_negative(4, "T", 0.0);
@@ -198,7 +171,8 @@ Property rod_property(Draft& draft, const MaterialIndex& materials, const Card& 
 Properties read_properties(Draft& draft, MaterialIndex& materials) {
   Properties properties;
   materials = read_materials(draft);
-  read_bars(draft, materials, properties);
+  read_bar_sections(draft, materials, properties);
+  read_beam_sections(draft, materials, properties);
   read_rods(draft, materials, properties);
   const Orthotropic orthotropic = read_orthotropic(draft);
   read_shells(draft, materials, orthotropic, properties);

@@ -1,11 +1,12 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <unordered_map>
 
 #include "fem/formats/nastran/draft.hpp"
 
-/// Materials and sections of a deck: MAT1, MAT2, MAT8, PBAR, PROD, PTUBE, PSHELL, PCOMP.
+/// Materials and sections of a deck: MAT1, MAT2, MAT8, PBAR, PBARL, PBEAM, PBEAML, PROD, PTUBE, PSHELL, PCOMP.
 namespace tenon::fem::nastran {
 
 /// What an element's property number leads to: indices into the model.
@@ -13,6 +14,10 @@ struct Property {
   int section = 0;
   int material = 0;
   double offset = 0.0;  ///< of PCOMP: from the reference plane to the middle surface
+  int taper = -1;       ///< of PBEAM, PBEAML: of Model::tapers
+  /// Of these: the centroid from the shear centre, at the ends.
+  std::array<Eigen::Vector2d, 2> neutral{Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
+  bool warps = false;  ///< of these: its torsion would be stiffer with warping held
 };
 
 using MaterialIndex = std::unordered_map<long, int>;  ///< MAT1 by MID
@@ -38,8 +43,9 @@ Orthotropic read_orthotropic(Draft& draft);
 Ply single_ply(const Card& card, const Orthotropic& orthotropic, const MaterialIndex& materials, const Model& model);
 
 struct Properties {
-  std::unordered_map<long, Property> bars, shells;  ///< PBAR, PSHELL and PCOMP by PID
-  std::unordered_map<long, Property> rods, tubes;   ///< PROD, PTUBE
+  std::unordered_map<long, Property> bars, beams;  ///< PBAR and PBARL, PBEAM and PBEAML by PID
+  std::unordered_map<long, Property> shells;       ///< PSHELL and PCOMP
+  std::unordered_map<long, Property> rods, tubes;  ///< PROD, PTUBE
 
   /// The property an element names; throws InputError at the field.
   static const Property& find(const std::unordered_map<long, Property>& properties, const char* kind, const Card& card,
@@ -48,6 +54,9 @@ struct Properties {
   /// A section of plies, with a material for the elements to name; the plies have their own.
   void add_laminate(long id, ShellSection section, double offset, Model& model);
 };
+
+void read_bar_sections(Draft& draft, const MaterialIndex& materials, Properties& properties);   ///< PBAR, PBARL
+void read_beam_sections(Draft& draft, const MaterialIndex& materials, Properties& properties);  ///< PBEAM, PBEAML
 
 /// PCOMP: plies from bottom to top, each in the axes that THETA of the element and of the ply give.
 void read_composites(Draft& draft, const MaterialIndex& materials, const Orthotropic& orthotropic,
