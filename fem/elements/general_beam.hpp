@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "fem/elements/element_matrices.hpp"
 #include "fem/elements/section_line.hpp"
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "fem/model.hpp"
 
 namespace tenon::fem {

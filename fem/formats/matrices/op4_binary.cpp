@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <string_view>
 
 #include "fem/error.hpp"
@@ -80,7 +81,7 @@ class BinaryReader {
     NamedMatrix matrix;
     matrix.columns = integer();
     const std::int64_t rows = integer();
-    matrix.rows = rows < 0 ? -rows : rows;
+    matrix.rows = rows < 0 && rows != std::numeric_limits<std::int64_t>::min() ? -rows : rows;
     matrix.form = static_cast<int>(integer());
     const std::int64_t type = integer();
     for (const char c : data_)

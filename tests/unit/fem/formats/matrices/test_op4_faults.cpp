@@ -63,6 +63,15 @@ TEST(Op4Faults, BinaryRecordsAreHeldToTheirLengths) {
               HasSubstr("4 bytes of numbers of 8 bytes each"));
 }
 
+// found by libFuzzer: the one number of rows whose negative is no number
+TEST(Op4Faults, RowsWithoutANegative) {
+  std::string bytes = std::string(56, '\0');
+  bytes[3] = bytes[55] = 48;  // a header of six words of 8 bytes, the larger end first
+  bytes[11] = 7;
+  bytes[12] = '\x80';
+  EXPECT_THAT(refused(bytes), HasSubstr("expected 1 to"));
+}
+
 TEST(Op4Faults, ColumnsStayInsideTheMatrix) {
   const auto column = [](int j, int row, std::vector<double> numbers) {
     Bytes bytes(false);
