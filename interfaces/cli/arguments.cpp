@@ -30,6 +30,16 @@ void add_info(CLI::App& program, int& status) {
   command->callback([options, &status] { status = run(*options); });
 }
 
+void add_export(CLI::App& program, int& status) {
+  const auto options = std::make_shared<ExportOptions>();
+  CLI::App* command = program.add_subcommand("export", "write a mesh, or the mesh of a deck, in another format");
+  command->add_option("MESH", options->input, "a mesh (.msh, .inp, .vtu, .vtk) or deck (.bdf, .dat, .inp)")->required();
+  command->add_option("-o,--output", options->output, "a file: .msh (Gmsh 4.1) or .vtu (ParaView)")->required();
+  command->add_flag("--binary", options->binary, "of .msh: a binary file");
+  command->footer("Example: tenon export panel.bdf -o panel.msh");
+  command->callback([options, &status] { status = run(*options); });
+}
+
 void add_init(CLI::App& program, int& status) {
   const auto options = std::make_shared<InitOptions>();
   CLI::App* command = program.add_subcommand("init", "write a commented scene for a mesh, to fill in");
@@ -198,6 +208,7 @@ void add_doctor(CLI::App& program, int& status) {
 
 void add_commands(CLI::App& program, int& status) {
   add_info(program, status);
+  add_export(program, status);
   add_init(program, status);
   add_check(program, status);
   add_modes(program, status);

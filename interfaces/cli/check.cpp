@@ -35,11 +35,11 @@ BodyCheck check_fe(const assembly::Scene& scene, const assembly::SceneBody& body
   else if (std::all_of(model.nodes.begin(), model.nodes.end(), [](const fem::Vec3& x) { return x.allFinite(); }))
     mass = fem::mass_properties(structure);
   if (!model.supports.empty()) {
-    findings.push_back(remark(body.name,
-                              fmt::format("{} dofs are held to the inertial frame by `fix`{}", model.supports.size(),
-                                          scene.joints.empty() ? ": solve with `tenon modes`"
-                                                               : ", so it cannot be reduced and joined"),
-                              scene.joints.empty()));
+    findings.push_back(remark(
+        body.name,
+        fmt::format("{} dofs are held to the inertial frame by `fix`{}", model.supports.size(),
+                    scene.joints.empty() ? ": solve with `tenon modes`" : ", so it cannot be reduced and joined"),
+        scene.joints.empty()));
     if (sound) structure = fem::assemble(model);
   }
   return {.name = body.name,

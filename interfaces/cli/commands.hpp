@@ -15,6 +15,13 @@ struct InfoOptions {
 };
 int run(const InfoOptions& options);
 
+/// A mesh, or the mesh of a deck, in another format.
+struct ExportOptions {
+  std::filesystem::path input, output;
+  bool binary = false;
+};
+int run(const ExportOptions& options);
+
 /// A commented scene for a mesh.
 struct InitOptions {
   std::filesystem::path mesh, output;

@@ -61,11 +61,12 @@ Json collect() {
   object["threads"] = omp_get_max_threads();
   object["memory_bytes"] =
       static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE));
-  object["licence"] = {{"source", "Apache-2.0"},
-                       {"binary",
-                        "GPL-2.0-or-later terms (with Apache-2.0 source: version 3) apply to this binary as a whole, "
-                        "since Debian's CHOLMOD holds the Supernodal, MatrixOps and Modify modules, which are GPL. MUMPS "
-                        "is CeCILL-C. The source of the project stays Apache-2.0."}};
+  object["licence"] = {
+      {"source", "Apache-2.0"},
+      {"binary",
+       "GPL-2.0-or-later terms (with Apache-2.0 source: version 3) apply to this binary as a whole, "
+       "since Debian's CHOLMOD holds the Supernodal, MatrixOps and Modify modules, which are GPL. MUMPS "
+       "is CeCILL-C. The source of the project stays Apache-2.0."}};
   return object;
 }
 

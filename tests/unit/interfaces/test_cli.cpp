@@ -61,6 +61,26 @@ TEST_F(Cli, InfoPrintsWhatTheMeshHolds) {
   EXPECT_TRUE(info["read_past"].is_array());
 }
 
+TEST_F(Cli, ExportsMeshesAndTheMeshOfADeck) {
+  const std::string folder = folder_.path().string() + "/";
+  json info = object("info " + folder + "beam_16.msh");
+  for (const std::string options : {"", " --binary"}) {
+    EXPECT_EQ(tenon("export " + folder + "beam_16.msh" + options + " -o " + folder + "again.msh").status, 0);
+    const json again = object("info " + folder + "again.msh");
+    for (const char* what : {"points", "cells", "cell_sets", "bounding_box_file_units"})
+      EXPECT_EQ(again[what], info[what]);
+    EXPECT_EQ(again["format"], options.empty() ? "gmsh 4.1 ascii" : "gmsh 4.1 binary");
+  }
+  folder_.write("deck.bdf", "GRID,1\nGRID,2,,1.\nMAT1,1,2.+11,,.3\nPBAR,7,1,1.,1.,1.,1.\nCBAR,5,7,1,2,0.,1.,0.\n");
+  EXPECT_EQ(tenon("export " + folder + "deck.bdf -o " + folder + "deck.msh").status, 0);
+  EXPECT_EQ(object("info " + folder + "deck.msh")["cell_sets"]["pbar 7"]["cells"], 1);
+  EXPECT_EQ(tenon("export " + folder + "beam_16.msh -o " + folder + "again.vtu").status, 0);
+  EXPECT_EQ(object("info " + folder + "again.vtu")["points"], info["points"]);
+  const Ended unknown = tenon("export " + folder + "beam_16.msh -o " + folder + "again.stl");
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("not as '.stl'"));
+}
+
 TEST_F(Cli, InfoNamesEveryKindOfElement) {
   folder_.write("kinds.bdf",
                 "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,1.,1.,0.\nGRID,4,,0.,1.,0.\nMAT1,1,7.+10,,.3,2700.\n"
@@ -284,8 +304,8 @@ TEST_F(Cli, DoctorCountsAndMeasuresForwardDynamics) {
 
 TEST_F(Cli, HelpEndsWithStatusZeroAndAnExample) {
   EXPECT_EQ(tenon("--help").status, 0);
-  for (const char* command :
-       {"info", "init", "check", "modes", "reduce", "assemble", "frf", "sweep", "simulate", "beam", "doctor"}) {
+  for (const char* command : {"info", "export", "init", "check", "modes", "reduce", "assemble", "frf", "sweep",
+                              "simulate", "beam", "doctor"}) {
     const Ended help = tenon(std::string(command) + " --help");
     EXPECT_EQ(help.status, 0);
     EXPECT_THAT(help.out, HasSubstr("Example"));
