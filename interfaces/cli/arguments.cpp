@@ -42,8 +42,8 @@ void add_export(CLI::App& program, int& status) {
 
 void add_init(CLI::App& program, int& status) {
   const auto options = std::make_shared<InitOptions>();
-  CLI::App* command = program.add_subcommand("init", "write a commented scene for a mesh, to fill in");
-  command->add_option("MESH", options->mesh, "a mesh (.msh)")->required();
+  CLI::App* command = program.add_subcommand("init", "write a commented scene for a mesh or deck, to fill in");
+  command->add_option("MESH", options->mesh, "a mesh (.msh, .inp, .vtu, .vtk) or deck (.bdf, .dat, .inp)")->required();
   command->add_option("-o,--output", options->output, "a file in the mesh's folder; standard output when absent");
   command->footer("Example: tenon init panel.msh -o scene.yaml");
   command->callback([options, &status] { status = run(*options); });

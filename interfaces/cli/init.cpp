@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
-#include <iostream>
+#include <algorithm>
+#include <cctype>
 
 #include "fem/error.hpp"
 #include "fem/formats/atomic_file.hpp"
+#include "fem/formats/deck.hpp"
 #include "fem/formats/read_mesh.hpp"
 #include "interfaces/cli/commands.hpp"
 #include "interfaces/cli/input.hpp"
@@ -21,41 +23,97 @@ int dimension_of(const fem::Mesh& mesh, const std::vector<std::vector<int>>& blo
   return dimension;
 }
 
-std::string section_lines(const fem::Mesh& mesh) {
+bool is_plain(const std::string& name) {
+  return !name.empty() && std::isalpha(static_cast<unsigned char>(name.front())) &&
+         std::ranges::all_of(name, [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; });
+}
+
+/// A name of the file as a value or key of the scene.
+std::string quoted(const std::string& name) { return is_plain(name) ? name : Json(name).dump(); }
+
+/// A name that the scene's words can point at.
+std::string as_word(std::string name) {
+  for (char& c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_' && c != '-') c = '_';
+  if (name.empty() || !std::isalpha(static_cast<unsigned char>(name.front()))) name.insert(0, "n");
+  return name;
+}
+
+constexpr const char* shell_words = "{shell: THICKNESS}";
+constexpr const char* beam_words =
+    "{tube: [OUTER, INNER]}  # radii; or circle, rectangle, box, i, channel, general; move to `ignore` if it is no "
+    "structure";
+
+std::string section_lines(const fem::Mesh& mesh, const std::filesystem::path& file) {
   std::string text;
   for (const auto& [set, blocks] : mesh.cell_sets) {
     const int dimension = dimension_of(mesh, blocks);
-    if (dimension == 2) text += fmt::format("      {}: {{shell: THICKNESS}}\n", set);
-    if (dimension == 1)
-      text += fmt::format(
-          "      {}: {{tube: [OUTER, INNER]}}  # radii; or circle, rectangle, box, general; "
-          "move to `ignore` if it is no structure\n",
-          set);
+    if (dimension == 2) text += fmt::format("      {}: {}\n", quoted(set), shell_words);
+    if (dimension == 1) text += fmt::format("      {}: {}\n", quoted(set), beam_words);
   }
-  return text.empty() ? "      everywhere: {shell: THICKNESS}\n" : text;
+  if (!text.empty()) return text;
+  int highest = 0;
+  for (const fem::CellBlock& block : mesh.cells)
+    if (const int d = fem::dimension(block.type); d < 3) highest = std::max(highest, d);
+  if (highest == 0)
+    throw InputError({file.string()}, "holds neither lines nor surfaces, which beams and shells are made of",
+                     "A part of solids comes in by the K and M of the program that owns it: `matrices:` of a scene");
+  return fmt::format("      everywhere: {}\n", highest == 2 ? shell_words : beam_words);
 }
 
+/// Sets of points as ports, small ones first; one that shares points with those before, or holds most of the mesh, is
+/// left as a comment.
 std::string port_lines(const fem::Mesh& mesh) {
+  std::vector<std::pair<std::size_t, std::string>> sets;
+  for (const auto& [set, points] : mesh.point_sets) sets.emplace_back(points.size(), set);
+  std::ranges::sort(sets);
+  std::vector<bool> taken(mesh.points.size(), false);
   std::string text;
-  for (const auto& [set, points] : mesh.point_sets) text += fmt::format("      {0}: {{set: {0}}}\n", set);
-  return text.empty() ? "      root: {nearest: [0, 0, 0]}\n" : text;
+  bool any = false;
+  for (const auto& [size, set] : sets) {
+    const std::vector<int>& points = mesh.point_sets.at(set);
+    if (points.empty()) continue;
+    const bool most = 2 * size > mesh.points.size() && size > 1;
+    const bool shares = std::ranges::any_of(points, [&](int p) { return taken[static_cast<std::size_t>(p)]; });
+    text += fmt::format("      {}{}: {{set: {}}}{}\n", most || shares ? "# " : "", as_word(set), quoted(set),
+                        most     ? "  # most of the points"
+                        : shares ? "  # shares points with a port above"
+                                 : "");
+    if (most || shares) continue;
+    any = true;
+    for (const int p : points) taken[static_cast<std::size_t>(p)] = true;
+  }
+  return any ? text : text + "      root: {nearest: [0, 0, 0]}\n";
+}
+
+/// What a deck brings along, and what it holds: comments.
+std::string deck_lines(const fem::Model& model) {
+  std::string text = "    # sections, materials and masses are the deck's own: `tenon info` lists them\n";
+  if (!model.supports.empty())
+    text += fmt::format("    # the deck holds {} dofs to the inertial frame (SPC, *BOUNDARY)\n", model.supports.size());
+  std::vector<std::string> names;
+  for (const fem::Loss& loss : model.losses)
+    if (loss.changes_physics) {
+      text += fmt::format("    # read past, and it carries stiffness or mass: {} × {}\n", loss.count, loss.name);
+      names.push_back(quoted(loss.name));
+    }
+  if (!names.empty()) text += fmt::format("    # allow: [{}]  # to go on without them\n", fmt::join(names, ", "));
+  return text;
 }
 
 /// What only the user knows stands in capitals; `tenon check` points at each until it is filled in.
-std::string scene_for(const fem::Mesh& mesh, const std::filesystem::path& file) {
+std::string scene_for(const fem::Mesh& mesh, const std::string& contents, const std::filesystem::path& file) {
   Eigen::AlignedBox3d box;
   for (const fem::Vec3& point : mesh.points) box.extend(point);
   const fem::Vec3 size = box.isEmpty() ? fem::Vec3(0.0, 0.0, 0.0) : fem::Vec3(box.sizes());
-  const std::string body = file.stem().string();
+  const std::string body = as_word(file.stem().string());
   return fmt::format(
       "# A scene for {0}: {1} points, {2:g} x {3:g} x {4:g} in its unit of length.\n"
       "# Words in CAPITALS are for you to replace; `tenon check` points at those that are left.\n"
       "units: UNITS                    # SI, or e.g. {{length: mm, mass: t, time: s}}: of this file and of the mesh\n"
       "bodies:\n"
       "  {5}:\n"
-      "    fe: {0}\n"
-      "    material: aluminium         # or steel, titanium, {{E: ..., nu: ..., rho: ...}}\n"
-      "    sections:                   # one for each set of cells\n"
+      "    fe: {8}\n"
       "{6}"
       "    ports:                      # where it is held or joined\n"
       "{7}"
@@ -67,19 +125,32 @@ std::string scene_for(const fem::Mesh& mesh, const std::filesystem::path& file) 
       "inputs: {{}}                      # e.g. push: {{at: {5}.root, force: z}}\n"
       "outputs: {{}}                     # e.g. tip: {{at: {5}.root, acceleration: [x, y, z]}}\n"
       "requires: {{band: [0, BAND Hz], tolerance: 1e-3}}\n",
-      file.filename().string(), mesh.points.size(), size.x(), size.y(), size.z(), body, section_lines(mesh),
-      port_lines(mesh));
+      file.filename().string(), mesh.points.size(), size.x(), size.y(), size.z(), body, contents, port_lines(mesh),
+      Json(file.filename().string()).dump());
+}
+
+std::string scene_of(const std::filesystem::path& file, InputKind kind) {
+  if (kind == InputKind::deck) {
+    const fem::Deck deck = fem::read_deck(file, true);
+    return scene_for(deck.mesh, deck_lines(deck.model), file);
+  }
+  const fem::Mesh mesh = fem::read_mesh(file);
+  return scene_for(mesh,
+                   "    material: aluminium         # or steel, titanium, {E: ..., nu: ..., rho: ...}\n"
+                   "    sections:                   # one for each set of cells\n" +
+                       section_lines(mesh, file),
+                   file);
 }
 
 }  // namespace
 
 int run(const InitOptions& options) {
-  if (kind_of(options.mesh) != InputKind::mesh)
-    throw InputError({options.mesh.string()}, "this is no mesh that lacks a scene",
-                     "Name a .msh file; decks are solved as they are by `tenon modes`");
+  const InputKind kind = kind_of(options.mesh);
+  if (kind == InputKind::scene)
+    throw InputError({options.mesh.string()}, "this is a scene already", "Name a mesh or a deck");
   if (!options.output.empty() && std::filesystem::exists(options.output))
     throw InputError({options.output.string()}, "exists already", "Name another file, or remove this one first");
-  const std::string text = scene_for(fem::read_mesh(options.mesh), options.mesh);
+  const std::string text = scene_of(options.mesh, kind);
   if (options.output.empty()) {
     fmt::print("{}", text);
     return done;

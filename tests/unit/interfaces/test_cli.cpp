@@ -199,6 +199,48 @@ TEST_F(Cli, InitWritesASceneThatOnlyLacksWhatTheUserKnows) {
   EXPECT_EQ(tenon("check " + folder_.write("new.yaml", text).string()).status, 0);
 }
 
+/// A written scene with its capitals filled in ends `tenon check` with that status.
+TEST_F(Cli, InitWritesScenesForEveryFormat) {
+  const fs::path folder = folder_.path();
+  const auto check = [&](const std::string& file) {
+    std::string text = tenon("init " + (folder / file).string()).out;
+    for (const auto& [word, value] :
+         {std::pair("UNITS ", "SI "), {"[OUTER, INNER]", "[0.1, 0.09]"}, {"THICKNESS", "0.02"}, {"BAND", "20"}})
+      for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word))
+        text.replace(at, std::string(word).size(), value);
+    const Ended checked = tenon("check " + folder_.write("of_" + file + ".yaml", text).string());
+    EXPECT_EQ(checked.status, 0) << file << checked.err << checked.out << text;
+    return text;
+  };
+  const std::string grids = "GRID,1\nGRID,2,,1.\nGRID,3,,1.,1.\nGRID,4,,,1.\n";
+  folder_.write("plate.bdf",
+                grids + "MAT1,1,2.+11,,.3,7800.\nPSHELL,7,1,.01,1,,1\nCQUAD4,5,7,1,2,3,4\nASET1,123456,1\n");
+  folder_.write("deck.inp",
+                "*NODE, NSET=NALL\n1, 0, 0, 0\n2, 1, 0, 0\n3, 1, 1, 0\n4, 0, 1, 0\n*NSET, NSET=EDGE\n1, 4\n"
+                "*NSET, NSET=CORNER\n1\n*ELEMENT, TYPE=S4, ELSET=SKIN\n1, 1, 2, 3, 4\n*MATERIAL, NAME=M\n*ELASTIC\n"
+                "2e11, 0.3\n*DENSITY\n7800\n*SHELL SECTION, ELSET=SKIN, MATERIAL=M\n0.01\n");
+  folder_.write("mesh.inp",
+                "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 1, 1, 0\n4, 0, 1, 0\n*ELEMENT, TYPE=S4, ELSET=MY SKIN\n"
+                "1, 1, 2, 3, 4\n*NSET, NSET=ROOT\n1, 4\n");
+  folder_.write("plain.vtk",
+                "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n"
+                "0 0 0 1 0 0 1 1 0 0 1 0\nCELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n9\n");
+  EXPECT_EQ(tenon("export " + (folder / "plain.vtk").string() + " -o " + (folder / "plain.vtu").string()).status, 0);
+  EXPECT_THAT(check("plate.bdf"), HasSubstr("boundary: {set: boundary}"));
+  const std::string deck = check("deck.inp");
+  EXPECT_THAT(deck, HasSubstr("      CORNER: {set: CORNER}\n      # EDGE: {set: EDGE}  # shares points"));
+  EXPECT_THAT(deck, HasSubstr("# NALL: {set: NALL}  # most of the points"));
+  EXPECT_THAT(check("mesh.inp"), HasSubstr("\"MY SKIN\": {shell"));
+  EXPECT_THAT(check("plain.vtk"), HasSubstr("everywhere: {shell"));
+  check("plain.vtu");
+  folder_.write("block.vtk",
+                "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n"
+                "0 0 0 1 0 0 1 1 0 0 1 1\nCELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n");
+  const Ended solid = tenon("init " + (folder / "block.vtk").string());
+  EXPECT_EQ(solid.status, 2);
+  EXPECT_THAT(solid.err, HasSubstr("by the K and M of the program that owns it"));
+}
+
 TEST_F(Cli, BeamPrintsThePapersTablesAndOnesOwnBeam) {
   EXPECT_THAT(tenon("beam").out, HasSubstr("4.38953"));  // the corrected inverse of G_f,4
   // steel, 2 m, solid circle of 10 mm radius: (βl)² √(E r²/4ρ) / l² / 2π
