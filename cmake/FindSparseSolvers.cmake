@@ -1,5 +1,5 @@
 # CHOLMOD (SuiteSparse) and sequential MUMPS come from Debian without CMake packages, and CVODE is found the same way:
-# imported targets for all.
+# imported targets for all. So is HDF5, of which Debian has a serial and a parallel one beside each other.
 find_path(CHOLMOD_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse REQUIRED)
 find_library(CHOLMOD_LIBRARY cholmod REQUIRED)
 if(NOT TARGET tenon_dep::cholmod)
@@ -30,4 +30,12 @@ if(NOT TARGET tenon_dep::cvode)
   add_library(tenon_dep::cvode INTERFACE IMPORTED)
   target_include_directories(tenon_dep::cvode SYSTEM INTERFACE ${CVODE_INCLUDE_DIR})
   target_link_libraries(tenon_dep::cvode INTERFACE ${CVODE_LIBRARY} ${NVECSERIAL_LIBRARY})
+endif()
+
+find_path(HDF5_SERIAL_INCLUDE_DIR hdf5.h PATH_SUFFIXES hdf5/serial REQUIRED)
+find_library(HDF5_SERIAL_LIBRARY NAMES hdf5_serial hdf5 PATH_SUFFIXES hdf5/serial REQUIRED)
+if(NOT TARGET tenon_dep::hdf5)
+  add_library(tenon_dep::hdf5 INTERFACE IMPORTED)
+  target_include_directories(tenon_dep::hdf5 SYSTEM INTERFACE ${HDF5_SERIAL_INCLUDE_DIR})
+  target_link_libraries(tenon_dep::hdf5 INTERFACE ${HDF5_SERIAL_LIBRARY})
 endif()

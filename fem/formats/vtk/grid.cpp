@@ -112,6 +112,24 @@ void Grid::add_data(bool of_cells, const std::string& name, const Values& values
   if (values.real) whole_.erase(name);
 }
 
+void Grid::add_set(bool of_cells, const std::string& name, const Values& members) {
+  const std::size_t first = of_cells ? first_cell_ : first_point_,
+                    n = (of_cells ? cells_.size() : mesh_.points.size()) - first;
+  if (members.real && members.size() > 0) fail(fmt::format("the set '{}' holds reals, expected whole numbers", name));
+  for (const std::int64_t member : members.whole) {
+    if (member < 0 || member >= static_cast<std::int64_t>(n))
+      fail(fmt::format("the set '{}' names {} of {} {}", name, member, n, of_cells ? "cells" : "points"));
+    const std::size_t place = first + static_cast<std::size_t>(member);
+    if (!of_cells) {
+      mesh_.point_sets[name].push_back(static_cast<int>(place));
+      continue;
+    }
+    auto& blocks = mesh_.cell_sets[name];
+    blocks.resize(mesh_.cells.size());
+    blocks[static_cast<std::size_t>(cells_[place].first)].push_back(cells_[place].second);
+  }
+}
+
 void Grid::make_sets(const std::string& name, const Eigen::MatrixXd& values) {
   std::set<std::int64_t> distinct;
   for (const double v : values.reshaped())
@@ -133,6 +151,7 @@ void Grid::finish() {
   using Rows = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
   if (mesh_.points.empty() || mesh_.cells.empty())
     throw InputError({mesh_.source}, "has no points or no cells", "Save the mesh again");
+  for (auto& [name, blocks] : mesh_.cell_sets) blocks.resize(mesh_.cells.size());
   for (const bool of_cells : {false, true})
     for (auto& [name, rows] : rows_[of_cells]) {
       const std::size_t width = widths_[of_cells][name], n = of_cells ? cells_.size() : mesh_.points.size();

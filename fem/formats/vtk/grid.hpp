@@ -24,6 +24,8 @@ class Grid {
   void add_cells(const Values& nodes, const Values& ends, const Values& types, std::size_t n);
   /// Data of the last n points or cells.
   void add_data(bool of_cells, const std::string& name, const Values& values, std::size_t n);
+  /// A set of the last points or cells, by their places among them; sets of one name are joined.
+  void add_set(bool of_cells, const std::string& name, const Values& members);
   /// Hands the data to the mesh. Whole numbers, one a cell, make cell sets, up to 256 values an array; what a piece
   /// lacks is NaN. Throws InputError for a mesh without points or cells.
   void finish();

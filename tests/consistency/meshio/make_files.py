@@ -31,8 +31,11 @@ FORMATS = {
     "gmsh41-ascii": ("gmsh", dict(binary=False), 16),
     "gmsh41-binary": ("gmsh", dict(binary=True), 17),
     "abaqus": ("abaqus", dict(), 16),
+    "xdmf-text": ("xdmf", dict(data_format="XML"), 16),
+    "xdmf-binary": ("xdmf", dict(data_format="Binary"), 17),
+    "xdmf-hdf": ("xdmf", dict(data_format="HDF"), 17),
 }
-ENDINGS = {"vtu": "vtu", "vtk42": "vtk", "vtk51": "vtk", "gmsh22": "msh", "gmsh": "msh", "abaqus": "inp"}
+ENDINGS = {"vtu": "vtu", "vtk42": "vtk", "vtk51": "vtk", "gmsh22": "msh", "gmsh": "msh", "abaqus": "inp", "xdmf": "xdmf"}
 
 
 def random_mesh(rng, types, cell_numbers, one_type):
@@ -79,7 +82,7 @@ def main():
             types = [t for t in ABAQUS if t in WIDTHS] if kind == "abaqus" else list(WIDTHS)
             if kind.startswith("gmsh"):
                 types.remove("wedge18")  # which meshio 5.0 writes in VTK's order
-            mesh = random_mesh(rng, types, kind.startswith("vt"), kind == "gmsh")
+            mesh = random_mesh(rng, types, kind.startswith("vt") or kind == "xdmf", kind == "gmsh")
             stem = f"{folder}/{name}-{k}"
             write_truth(f"{stem}.truth", mesh, digits)
             meshio.write(f"{stem}.{ENDINGS[kind]}", mesh, file_format=kind, **options)
