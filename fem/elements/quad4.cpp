@@ -344,21 +344,26 @@ void quad4_geometric_stiffness(const Quad4& quad, const ShellSection& section, c
                                ElementMatrices::Matrix& out) {
   const FlatQuad flat = flatten(quad, nodes);
   const ShellTheory theory = theory_of(quad, section, material, nodes, flat);
-  refuse_stress(theory, quad.offset, section.name, "quad", quad.id);
   const Points gauss = points(flat);
+  std::array<Vec3, 4> arms = flat.arms;
+  for (Vec3& arm : arms) arm.z() += quad.offset;
 
-  Vec3 strain = Vec3::Zero();  // B₀ u, the element's mean
+  Vec3 strain = Vec3::Zero(), curvature = Vec3::Zero();  // the element's means, B₀ u and ∮ β n ds / area
+  std::array<Vec3, 4> across;                            // (w θx θy)
   std::array<PlateEdge, 4> edge;
   for (int i = 0; i < 4; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    const Vec3 corner = flat.R.transpose() * u.segment<3>(6 * i) +
-                        Vec3(flat.R.transpose() * u.segment<3>(6 * i + 3)).cross(flat.arms[k]);
+    const Vec3 turn = flat.R.transpose() * u.segment<3>(6 * i + 3);
+    const Vec3 corner = flat.R.transpose() * u.segment<3>(6 * i) + turn.cross(arms[k]);
     const double b = gauss.centre.N_x[i], c = gauss.centre.N_y[i];
     strain += Vec3(b * corner.x(), c * corner.y(), c * corner.x() + b * corner.y());
+    across[k] << corner.z(), turn.x(), turn.y();
     const int j = (i + 1) % 4;
     edge[k] = plate_edge(theory, flat.x[j] - flat.x[i], flat.y[j] - flat.y[i]);
   }
-  const Mat2 N = stress_resultants(theory, strain);
+  for (std::size_t k = 0; k < 4; ++k)
+    curvature += edge_bending(edge[k], across[k], across[(k + 1) % 4]) / (4.0 * gauss.centre.dA);
+  const Mat2 N = stress_resultants(theory, strain, curvature);
   Mat12 K_membrane = Mat12::Zero(), K_plate = Mat12::Zero();
   for (std::size_t g = 0; g < 4; ++g) {
     const Point& p = gauss.gauss[g];
@@ -376,7 +381,7 @@ void quad4_geometric_stiffness(const Quad4& quad, const ShellSection& section, c
     }
     K_plate.noalias() += Eigen::Matrix<double, 12, 2>(w.lazyProduct(p.dA * N)).lazyProduct(w.transpose());
   }
-  shell_to_basic_frame<4>(K_membrane, K_plate, flat.R, flat.arms, out);
+  shell_to_basic_frame<4>(K_membrane, K_plate, flat.R, arms, out);
 }
 
 }  // namespace tenon::fem

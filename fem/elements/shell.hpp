@@ -27,10 +27,11 @@ void tria3_matrices(const Tria3& tria, const ShellSection& section, const Materi
 /// Geometric stiffness (24×24, of a triangle 18×18) of the element's mean membrane stress resultants N [N/m] that the
 /// displacement u causes:
 ///   Σ over u, v, w of ∫ ∇u_iᵀ N ∇u_i dA,
-/// u, v bilinear (in a triangle linear), w with the linked deflections of the edges. Stress that varies over the
-/// element, moments, shear and the second-order rotation of a warped quad's arms are left out.
+/// u, v bilinear (in a triangle linear), w with the linked deflections of the edges; N = A ε + B κ acts in the middle
+/// surface, at the ends of an offset's rigid arms. Stress that varies over the element, moments, shear and the
+/// second-order rotation of the arms (of an offset, of a warped quad) are left out.
 /// @param u  the element's displacements, basic frame
-/// @throws ModelError as above, and for an offset or a laminate that couples membrane and bending
+/// @throws ModelError as above
 void quad4_geometric_stiffness(const Quad4& quad, const ShellSection& section, const Material& material,
                                std::span<const Vec3> nodes, const Eigen::Ref<const Eigen::VectorXd>& u,
                                ElementMatrices::Matrix& out);

@@ -92,14 +92,6 @@ ShellTheory shell_theory(const ShellSection& section, const Material& material, 
   return theory;
 }
 
-void refuse_stress(const ShellTheory& theory, double offset, const std::string& section, std::string_view kind,
-                   long id) {
-  if (offset == 0.0 && !theory.coupled) return;
-  throw ModelError(fmt::format("{} element {}: section '{}' {}, and geometric stiffness knows none of that", kind, id,
-                               section, offset != 0.0 ? "lies off its nodes" : "couples membrane and bending"),
-                   "Leave the prestress out, or model the part without offset by a symmetric laminate");
-}
-
 PlateEdge plate_edge(const ShellTheory& theory, double dx, double dy) {
   const double l2 = dx * dx + dy * dy;
   double rigid = 1.0, shear = 0.0;  // 1/(1+φ) and φ/(1+φ)
@@ -112,6 +104,13 @@ PlateEdge plate_edge(const ShellTheory& theory, double dx, double dy) {
   }
   const double dbeta = -1.5 / l2 * rigid;  // (3), c = dx / l
   return {.dx = dx, .dy = dy, .shear = shear, .c_dbeta = dbeta * dx, .s_dbeta = dbeta * dy};
+}
+
+Vec3 edge_bending(const PlateEdge& e, const Vec3& i, const Vec3& j) {
+  Eigen::Vector2d beta(0.5 * (i[2] + j[2]), -0.5 * (i[1] + j[1]));   // β_x = θy, β_y = −θx
+  const double g = j[0] - i[0] + e.dx * beta.x() + e.dy * beta.y();  // (1)
+  beta += 2.0 / 3.0 * g * Eigen::Vector2d(e.c_dbeta, e.s_dbeta);     // the mean of 4ξ(1−ξ)
+  return {beta.x() * e.dy, -beta.y() * e.dx, beta.y() * e.dy - beta.x() * e.dx};
 }
 
 }  // namespace tenon::fem

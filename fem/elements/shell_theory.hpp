@@ -55,10 +55,6 @@ ShellTheory shell_theory(const ShellSection& section, const Material& material, 
 ShellTheory shell_theory(const ShellSection& section, const Material& material, const Vec3& material_axis,
                          const Vec3& side, const Mat3& R, std::string_view kind, long id);
 
-/// @throws ModelError naming the element: geometric stiffness knows no offset and no coupling of membrane and bending
-void refuse_stress(const ShellTheory& theory, double offset, const std::string& section, std::string_view kind,
-                   long id);
-
 /// An edge's part in bending and shear, (1)–(3).
 struct PlateEdge {
   double dx, dy;   ///< l c, l s [m]
@@ -68,6 +64,10 @@ struct PlateEdge {
 };
 
 PlateEdge plate_edge(const ShellTheory& theory, double dx, double dy);
+
+/// ∫ (β_x n_x, β_y n_y, β_x n_y + β_y n_x) ds [m] over the edge from i to j, n outwards when edges run
+/// counterclockwise: their sum over an element is its mean curvature times its area. `i`, `j`: (w θx θy).
+Vec3 edge_bending(const PlateEdge& edge, const Vec3& i, const Vec3& j);
 
 /// Columns += g' factors, g of the edge from i to j over the dofs (w θx θy).
 template <typename Columns, typename Factors>
@@ -93,9 +93,9 @@ void add_link(Column&& w, double P, const PlateEdge& e, int i, int j) {
   w[3 * j + 2] += f_x;
 }
 
-/// [N_x N_xy; N_xy N_y] of a membrane strain [N/m].
-inline Eigen::Matrix2d stress_resultants(const ShellTheory& theory, const Vec3& strain) {
-  const Vec3 N = theory.membrane * strain;
+/// [N_x N_xy; N_xy N_y] of a membrane strain and a curvature [N/m].
+inline Eigen::Matrix2d stress_resultants(const ShellTheory& theory, const Vec3& strain, const Vec3& curvature) {
+  const Vec3 N = theory.membrane * strain + theory.coupling * curvature;
   return (Eigen::Matrix2d() << N[0], N[2], N[2], N[1]).finished();
 }
 

@@ -255,22 +255,28 @@ void tria3_geometric_stiffness(const Tria3& tria, const ShellSection& section, c
   const FlatTria flat = flatten(tria, nodes);
   const ShellTheory theory =
       shell_theory(section, material, tria.material_axis, flat.R.col(0), flat.R, "triangle", tria.id);
-  refuse_stress(theory, tria.offset, section.name, "triangle", tria.id);
+  std::array<Vec3, 3> arms, bending;  // bending: (w θx θy)
+  arms.fill(Vec3(0.0, 0.0, tria.offset));
   Column9 in_plane;
   Eigen::Matrix<double, 6, 1> across;  // θx θy
   Vec3 N_x, N_y;
   std::array<PlateEdge, 3> edge;
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3, k = (i + 2) % 3;
-    const Vec3 local = flat.R.transpose() * u.segment<3>(6 * i), turn = flat.R.transpose() * u.segment<3>(6 * i + 3);
-    in_plane.segment<3>(3 * i) << local.x(), local.y(), turn.z();
+    const Vec3 turn = flat.R.transpose() * u.segment<3>(6 * i + 3);
+    const Vec3 corner = flat.R.transpose() * u.segment<3>(6 * i) + turn.cross(arms[0]);
+    in_plane.segment<3>(3 * i) << corner.x(), corner.y(), turn.z();
     across.segment<2>(2 * i) = turn.head<2>();
+    bending[static_cast<std::size_t>(i)] << corner.z(), turn.x(), turn.y();
     N_x[i] = (flat.y[j] - flat.y[k]) / (2.0 * flat.A);
     N_y[i] = (flat.x[k] - flat.x[j]) / (2.0 * flat.A);
     edge[static_cast<std::size_t>(i)] = plate_edge(theory, flat.x[j] - flat.x[i], flat.y[j] - flat.y[i]);
   }
   if (Eigen::Matrix<double, 9, 6> E; curvature_terms(tria, directors, flat, E)) in_plane += E * across;
-  const Eigen::Matrix2d N = flat.A / 3.0 * stress_resultants(theory, lumping(flat).transpose() * in_plane / flat.A);
+  Vec3 curvature = Vec3::Zero();  // the element's mean
+  for (std::size_t k = 0; k < 3; ++k) curvature += edge_bending(edge[k], bending[k], bending[(k + 1) % 3]) / flat.A;
+  const Eigen::Matrix2d N =
+      flat.A / 3.0 * stress_resultants(theory, lumping(flat).transpose() * in_plane / flat.A, curvature);
   Mat9 K_membrane = Mat9::Zero(), K_plate = Mat9::Zero();
   for (int g = 0; g < 3; ++g) {
     Vec3 area = Vec3::Constant(1.0 / 6.0);
@@ -286,8 +292,7 @@ void tria3_geometric_stiffness(const Tria3& tria, const ShellSection& section, c
     }
     K_plate.noalias() += Eigen::Matrix<double, 9, 2>(w.lazyProduct(N)).lazyProduct(w.transpose());
   }
-  const std::array<Vec3, 3> no_arms{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
-  shell_to_basic_frame<3>(K_membrane, K_plate, flat.R, no_arms, out);
+  shell_to_basic_frame<3>(K_membrane, K_plate, flat.R, arms, out);
 }
 
 }  // namespace tenon::fem

@@ -143,7 +143,7 @@ namespace {
 enum class Cells { quads, triangles };
 
 // a×b in a plane turned in space would hide which direction is which: x-y plane, nx×ny cells
-Loaded panel(double a, double b, int nx, int ny, double t, double nu, Cells cells, double distortion = 0.0) {
+Model panel_model(double a, double b, int nx, int ny, double t, double nu, Cells cells, double distortion = 0.0) {
   Model model;
   model.materials = {{.name = "unit", .E = 1.0, .G = 0.5 / (1.0 + nu), .nu = nu, .rho = 1.0}};
   model.shell_sections = {{.name = "plate", .thickness = t}};
@@ -166,7 +166,20 @@ Loaded panel(double a, double b, int nx, int ny, double t, double nu, Cells cell
         model.elements.emplace_back(Tria3{.nodes = {q[0], q[2], q[3]}, .id = 2 * k + 2});
       }
     }
-  return loaded(std::move(model));
+  return model;
+}
+
+Loaded panel(double a, double b, int nx, int ny, double t, double nu, Cells cells, double distortion = 0.0) {
+  return loaded(panel_model(a, b, nx, ny, t, nu, cells, distortion));
+}
+
+// the middle surface lies `offset` above the nodes
+Model off_its_nodes(Model model, double offset) {
+  for (Element& element : model.elements) {
+    if (auto* quad = std::get_if<Quad4>(&element)) quad->offset = offset;
+    if (auto* tria = std::get_if<Tria3>(&element)) tria->offset = offset;
+  }
+  return model;
 }
 
 // k of N = k π² D / b² of a simply supported unit square under N_x = −1, N_y = −biaxial
@@ -244,4 +257,118 @@ TEST(GeometricStiffness, TurnsTheNodeForcesWithARigidRotation) {
                                   })),
               1e-12);
   }
+}
+
+namespace {
+
+// Nodes and directions of a plate simply supported at its edges and free in its plane, but for one corner.
+bool supported_square(const Vec3& p, int d) {
+  const bool x = p.x() < 1e-9 || p.x() > 1 - 1e-9, y = p.y() < 1e-9 || p.y() > 1 - 1e-9;
+  if (d < 2) return p.norm() > 1e-9;
+  return d == 2 ? !x && !y : d == 3 ? !x : d == 4 ? !y : false;
+}
+
+// N L²/D of a strip of length L that is pressed through its own plane and hinged beside it, at distance e, by hinges
+// that do not give way: the chord stretches by e times the difference of the end rotations, so each end of a symmetric
+// mode feels a rotational spring k = 2 E t e²/L, and  tan x = −D (2x/L)/k = −(t/e)² x/12,  N = D (2x/L)².
+double hinged_beside(double e_by_t) {
+  double low = 0.5 * pi, high = pi;
+  for (int k = 0; k < 60; ++k) {
+    const double x = 0.5 * (low + high);
+    (std::sin(x) + x / (12.0 * e_by_t * e_by_t) * std::cos(x) > 0.0 ? low : high) = x;
+  }
+  return 4.0 * low * low;
+}
+
+// ν = 0, rigid in shear; as one ply off its nodes, or with an empty ply of the same thickness below it: e = t/2
+enum class Hinges { offset, empty_ply };
+
+double strip_factor(Cells cells, int n, Hinges hinges) {
+  const double t = 1e-4, b = 1.0 / n;  // so thin that the stretch before, N/EA ~ 2 t², does not show
+  Model model = panel_model(1.0, b, n, 1, t, 0.0, cells);
+  model.shell_sections[0].shear_ratio = 0.0;
+  const Ply ply{.thickness = t, .E1 = 1.0, .E2 = 1.0, .G12 = 0.5},
+      empty{.thickness = t, .E1 = 1e-10, .E2 = 1e-10, .G12 = 5e-11};
+  if (hinges == Hinges::empty_ply)
+    model.shell_sections[0].plies = {empty, ply};
+  else
+    model = off_its_nodes(std::move(model), 0.5 * t);
+  const Loaded l = loaded(std::move(model));
+  const Eigen::VectorXd u = field(l, [&](const Vec3& p) { return Vec3(-p.x() / t, 0.0, 0.0); });
+  const double N = buckling_load(l, u, [](const Vec3& p, int d) {
+    const bool end = p.x() < 1e-9 || p.x() > 1 - 1e-9;
+    return d == 4 || (!end && (d == 0 || d == 2));
+  });
+  return N / (t * t * t / 12.0);
+}
+
+}  // namespace
+
+TEST(Buckling, OfAPlateBesideItsNodesIsTheSame) {
+  // one edge of the plane is as good as another where the edges may move in it
+  const double t = 0.01, nu = 0.3;
+  for (const Cells cells : {Cells::quads, Cells::triangles}) {
+    const auto load = [&](double offset) {
+      const Loaded l = loaded(off_its_nodes(panel_model(1.0, 1.0, 6, 6, t, nu, cells, 0.1), offset));
+      return buckling_load(l, field(l, [&](const Vec3& p) { return Vec3(-p.x() / t, nu * p.y() / t, 0.0); }),
+                           supported_square);
+    };
+    EXPECT_NEAR(load(0.03) / load(0.0), 1.0, 1e-8);
+  }
+}
+
+TEST(Buckling, OfAStripHingedBesideItsPlane) {
+  const double exact = hinged_beside(0.5);  // 24.1, π² hinged in its plane, 4π² clamped
+  for (const Hinges hinges : {Hinges::offset, Hinges::empty_ply})
+    for (const Cells cells : {Cells::quads, Cells::triangles}) {
+      const double coarse = strip_factor(cells, 8, hinges) / exact - 1.0,
+                   fine = strip_factor(cells, 16, hinges) / exact - 1.0;
+      report("strip hinged beside its plane", coarse, fine);
+      EXPECT_LT(std::abs(fine), left_by(cells == Cells::quads ? 4 : 2, coarse, fine));
+    }
+}
+
+TEST(GeometricStiffness, TakesTheMembraneForcesOfBending) {
+  // bent to constant curvatures, a surface off its nodes or a laminate with B ≠ 0 has the constant N = A (ε + e κ) + B
+  // κ; node forces in the plane turn, K_σ (φ × x) = φ × F. Those across it come from the twisting moment, which has no
+  // part.
+  const Vec3 phi(0.3, -0.5, 0.7), kappa(0.4, -0.7, 0.5);
+  const auto ply = [](double angle) {
+    return Ply{
+        .thickness = 0.03, .angle = angle, .E1 = 25.0, .E2 = 1.0, .nu12 = 0.25, .G12 = 0.5, .G13 = 0.5, .G23 = 0.2};
+  };
+  for (const bool laminate : {false, true})
+    for (const double offset : {0.0, 0.05})
+      for (const Cells cells : {Cells::quads, Cells::triangles}) {
+        if (!laminate && offset == 0.0) continue;
+        Model model = off_its_nodes(panel_model(1.0, 0.7, 4, 3, 0.1, 0.3, cells, 0.1), offset);
+        if (laminate) model.shell_sections[0].plies = {ply(0.0), ply(0.5), ply(1.3)};
+        for (Element& element : model.elements) {
+          if (auto* quad = std::get_if<Quad4>(&element)) quad->material_axis = Vec3::UnitX();
+          if (auto* tria = std::get_if<Tria3>(&element)) tria->material_axis = Vec3::UnitX();
+        }
+        const Loaded l = loaded(std::move(model));
+        Eigen::VectorXd u(l.structure.n());
+        for (int row = 0; row < l.structure.n(); ++row) {
+          const Dof& dof = l.structure.dofs.free[static_cast<std::size_t>(row)];
+          const Vec3& p = l.structure.nodes[static_cast<std::size_t>(dof.node)];
+          const double beta_x = kappa[0] * p.x() + 0.5 * kappa[2] * p.y(),
+                       beta_y = kappa[1] * p.y() + 0.5 * kappa[2] * p.x();
+          const Vec6 bent =
+              (Vec6() << 0.02 * p.x(), 0.01 * p.y(), -0.5 * (beta_x * p.x() + beta_y * p.y()), -beta_y, beta_x, 0.0)
+                  .finished();
+          u[row] = bent[dof.direction];
+        }
+        const Eigen::VectorXd F = l.K * u;
+        const Eigen::VectorXd G =
+            stress_stiffness(l, u) * rigid_motions(l.structure, Vec3::Zero()).rightCols<3>() * phi;
+        double error = 0.0, largest = 0.0;
+        for (int node = 0; node < static_cast<int>(l.structure.nodes.size()); ++node) {
+          const auto at = [&](const Eigen::VectorXd& of, int d) { return of[l.structure.dofs.row({node, d})]; };
+          const Vec3 force(at(F, 0), at(F, 1), 0.0), change(at(G, 0), at(G, 1), at(G, 2));
+          error = std::max(error, (change - phi.cross(force)).norm());
+          largest = std::max(largest, force.norm());
+        }
+        EXPECT_LT(error, 1e-11 * largest) << laminate << offset;
+      }
 }

@@ -218,14 +218,3 @@ TEST(Laminate, RefusesWhatIsNone) {
   EXPECT_THAT(refusal(with([](Ply& p) { p.angle = NAN; })), HasSubstr("not finite"));
   EXPECT_THAT(refusal(unsymmetric, Vec3::UnitZ()), HasSubstr("normal to it"));
 }
-
-TEST(Laminate, GeometricStiffnessIsRefusedByName) {
-  const std::vector<Vec3> square{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
-  const Eigen::VectorXd u = Eigen::VectorXd::Zero(24);
-  ElementMatrices::Matrix K;
-  EXPECT_THROW(quad4_geometric_stiffness({.nodes = {0, 1, 2, 3}}, unsymmetric, none, square, u, K), ModelError);
-  const ShellSection symmetric{.name = "s", .plies = {graphite(0.01, 0.0), graphite(0.02, 1.0), graphite(0.01, 0.0)}};
-  EXPECT_NO_THROW(quad4_geometric_stiffness({.nodes = {0, 1, 2, 3}}, symmetric, none, square, u, K));
-  EXPECT_THROW(quad4_geometric_stiffness({.nodes = {0, 1, 2, 3}, .offset = 0.1}, symmetric, none, square, u, K),
-               ModelError);
-}
