@@ -68,24 +68,25 @@ void element_matrices(const Model& model, std::span<const Vec3> directors, const
                       ElementMatrices& out) {
   const auto material = [&](int i) -> const Material& { return model.materials[static_cast<std::size_t>(i)]; };
   const auto shell = [&](int i) -> const ShellSection& { return model.shell_sections[static_cast<std::size_t>(i)]; };
-  std::visit(
-      Overloaded{[&](const Beam& e) {
-                   const SectionLine line(model, e);
-                   line.plain() ? beam_matrices(e, line.section(0), material(e.material), model.nodes, out)
-                                : general_beam_matrices(e, line, material(e.material), model.nodes, out);
-                 },
-                 [&](const Quad4& e) { quad4_matrices(e, shell(e.section), material(e.material), model.nodes, out); },
-                 [&](const Tria3& e) {
-                   tria3_matrices(e, shell(e.section), material(e.material), model.nodes, out, directors);
-                 },
-                 [&](const PointMass& e) { point_mass_matrices(e, out); },
-                 [&](const Spring& e) { spring_matrices(e, out); },
-                 [&](const Rod& e) {
-                   rod_matrices(e, model.beam_sections[static_cast<std::size_t>(e.section)], material(e.material),
-                                model.nodes, out);
-                 },
-                 [&](const Bush& e) { bush_matrices(e, model.nodes, out); }},
-      element);
+  std::visit(Overloaded{[&](const Beam& e) {
+                          const SectionLine line(model, e);
+                          line.plain() ? beam_matrices(e, line.section(0), material(e.material), model.nodes, out)
+                                       : general_beam_matrices(e, line, material(e.material), model.nodes, out);
+                        },
+                        [&](const Quad4& e) {
+                          quad4_matrices(e, shell(e.section), material(e.material), model.nodes, out, directors);
+                        },
+                        [&](const Tria3& e) {
+                          tria3_matrices(e, shell(e.section), material(e.material), model.nodes, out, directors);
+                        },
+                        [&](const PointMass& e) { point_mass_matrices(e, out); },
+                        [&](const Spring& e) { spring_matrices(e, out); },
+                        [&](const Rod& e) {
+                          rod_matrices(e, model.beam_sections[static_cast<std::size_t>(e.section)],
+                                       material(e.material), model.nodes, out);
+                        },
+                        [&](const Bush& e) { bush_matrices(e, model.nodes, out); }},
+             element);
 }
 
 std::vector<char> used_dofs(const Model& model) {

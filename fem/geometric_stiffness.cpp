@@ -27,7 +27,7 @@ struct GeometricStiffnessOf {
                  : general_beam_geometric_stiffness(e, line, material(e.material), model.nodes, u, out);
   }
   void operator()(const Quad4& e) const {
-    quad4_geometric_stiffness(e, shell(e.section), material(e.material), model.nodes, u, out);
+    quad4_geometric_stiffness(e, shell(e.section), material(e.material), model.nodes, u, out, directors);
   }
   void operator()(const Tria3& e) const {
     tria3_geometric_stiffness(e, shell(e.section), material(e.material), model.nodes, u, out, directors);

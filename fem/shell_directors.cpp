@@ -12,7 +12,6 @@ struct Cells {
   std::vector<std::span<const int>> nodes;
   std::vector<Vec3> normal;    ///< unit; zero of a degenerate element, which assembly will refuse
   std::vector<int> start, at;  ///< cells of node i: at[start[i]] … at[start[i + 1] − 1]
-  bool triangles = false;
 
   std::span<const int> around(int node) const {
     const auto i = static_cast<std::size_t>(node);
@@ -27,13 +26,12 @@ Cells cells_of(const Model& model) {
     if (const auto* t = std::get_if<Tria3>(&element)) {
       c.nodes.emplace_back(t->nodes);
       c.normal.push_back((x(t->nodes[1]) - x(t->nodes[0])).cross(x(t->nodes[2]) - x(t->nodes[0])));
-      c.triangles = true;
     } else if (const auto* q = std::get_if<Quad4>(&element)) {
       c.nodes.emplace_back(q->nodes);
       c.normal.push_back((x(q->nodes[2]) - x(q->nodes[0])).cross(x(q->nodes[3]) - x(q->nodes[1])));
     }
   }
-  if (!c.triangles) return c;
+  if (c.nodes.empty()) return c;
   for (Vec3& n : c.normal) n.normalize();
   c.start.assign(model.nodes.size() + 1, 0);
   for (const auto& cell : c.nodes)
@@ -105,7 +103,7 @@ Vec3 fitted_normal(const std::vector<Vec3>& x, const std::vector<int>& nodes, co
 
 std::vector<Vec3> shell_directors(const Model& model) {
   const Cells cells = cells_of(model);
-  if (!cells.triangles) return {};
+  if (cells.nodes.empty()) return {};
   const int n = static_cast<int>(model.nodes.size());
   std::vector<Vec3> mean(model.nodes.size());
   for (int i = 0; i < n; ++i) mean[static_cast<std::size_t>(i)] = mean_normal(cells, i);

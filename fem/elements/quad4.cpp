@@ -1,11 +1,9 @@
-#include <fmt/format.h>
-
 #include <Eigen/LU>
 
 #include "fem/elements/basic_frame.hpp"
+#include "fem/elements/quad4_geometry.hpp"
 #include "fem/elements/shell.hpp"
 #include "fem/elements/shell_theory.hpp"
-#include "fem/error.hpp"
 
 // Natural coordinates r, s in −1..1; h = rs. The shape functions split into what linear fields see and an hourglass,
 //
@@ -48,52 +46,9 @@ namespace tenon::fem {
 namespace {
 
 using Mat2 = Eigen::Matrix2d;
-using Vec4 = Eigen::Vector4d;
 using Mat4 = Eigen::Matrix4d;
 using Column12 = Eigen::Matrix<double, 12, 1>;
 using Mat12 = Eigen::Matrix<double, 12, 12>;
-
-const Vec4 corner_r(-1.0, 1.0, 1.0, -1.0), corner_s(-1.0, -1.0, 1.0, 1.0), corner_h(1.0, -1.0, 1.0, -1.0);
-
-/// The quad flattened onto its mean plane.
-struct FlatQuad {
-  Mat3 R;                    ///< columns: element axes
-  Vec4 x, y;                 ///< corners in the plane [m]
-  std::array<Vec3, 4> arms;  ///< node to corner, element axes [m]
-};
-
-/// The mean plane is parallel to both diagonals: the nodes lie at ±d from it in turn. x bisects the diagonals, along r.
-FlatQuad flatten(const Quad4& quad, std::span<const Vec3> nodes) {
-  std::array<Vec3, 4> p;
-  for (std::size_t i = 0; i < 4; ++i) p[i] = nodes[static_cast<std::size_t>(quad.nodes[i])];
-  const Vec3 d13 = p[2] - p[0], d24 = p[3] - p[1], normal = d13.cross(d24);
-  const double size2 = d13.squaredNorm() + d24.squaredNorm();
-  if (!(normal.norm() > 1e-10 * size2))
-    throw ModelError(fmt::format("quad element {}: its area is zero", quad.id),
-                     "Delete it, or use a triangle where two of its nodes coincide");
-  FlatQuad f;
-  f.R.col(2) = normal.normalized();
-  f.R.col(0) = (d13.normalized() - d24.normalized()).normalized();
-  f.R.col(1) = f.R.col(2).cross(f.R.col(0));
-  const Vec3 centre = 0.25 * (p[0] + p[1] + p[2] + p[3]);
-  for (int i = 0; i < 4; ++i) {
-    const Vec3 local = f.R.transpose() * (p[static_cast<std::size_t>(i)] - centre);
-    f.x[i] = local.x();
-    f.y[i] = local.y();
-    const bool flat = std::abs(local.z()) <= 1e-13 * std::sqrt(size2);
-    f.arms[static_cast<std::size_t>(i)] = flat ? Vec3(0.0, 0.0, 0.0) : Vec3(0.0, 0.0, -local.z());
-  }
-  for (int i = 0; i < 4; ++i) {
-    const int next = (i + 1) % 4, last = (i + 3) % 4;
-    const double turn = (f.x[next] - f.x[i]) * (f.y[last] - f.y[i]) - (f.y[next] - f.y[i]) * (f.x[last] - f.x[i]);
-    if (!(turn > 1e-8 * normal.norm()))
-      throw ModelError(
-          fmt::format("quad element {}: it is folded or crossed, the angle at its corner {} is 180° or more", quad.id,
-                      i + 1),
-          "List the nodes around the element, or split it into two triangles");
-  }
-  return f;
-}
 
 /// Shape functions and metric at (r, s).
 struct Point {
@@ -207,6 +162,28 @@ Mat12 coupling_stiffness(const ShellTheory& theory, const Points& points, const 
   return K;
 }
 
+/// With u_corner + E (w θx θy) in place of the corners' (u v), `surface_terms`: the membrane and its coupling to
+/// bending are carried to the plate and to what couples both. False for a flat quad.
+bool add_surface_terms(const Quad4& quad, std::span<const Vec3> directors, const FlatQuad& flat, bool coupled,
+                       const Mat12& K_membrane, Mat12& K_plate, Mat12& K_coupling) {
+  SurfaceTerms E;
+  if (!surface_terms(quad, directors, flat, E)) return false;
+  if (!coupled) K_coupling.setZero();
+  Mat12 EtC = Mat12::Zero();  // over (w θx θy): Eᵀ (C + K E)
+  Eigen::Matrix<double, 12, 8> K;
+  for (int i = 0; i < 4; ++i) K.middleCols<2>(2 * i) = K_membrane.middleCols<2>(3 * i);
+  if (coupled) {
+    for (int i = 0; i < 4; ++i)
+      EtC.noalias() += E.middleRows<2>(2 * i).transpose().lazyProduct(K_coupling.middleRows<2>(3 * i));
+    K_plate += EtC + EtC.transpose();
+  }
+  const Mat12 KE = K.lazyProduct(E);
+  for (int i = 0; i < 4; ++i)
+    K_plate.noalias() += E.middleRows<2>(2 * i).transpose().lazyProduct(KE.middleRows<2>(3 * i));
+  K_coupling += KE;
+  return true;
+}
+
 /// Energy (2), added over (u v θz).
 void add_drilling(const ShellTheory& theory, const Points& points, Mat12& K) {
   const double area = 4.0 * points.centre.dA, t = theory.thickness, alpha = std::min(1e-3, t * t / area);
@@ -313,8 +290,8 @@ ShellTheory theory_of(const Quad4& quad, const ShellSection& section, const Mate
 }  // namespace
 
 void quad4_matrices(const Quad4& quad, const ShellSection& section, const Material& material,
-                    std::span<const Vec3> nodes, ElementMatrices& out) {
-  const FlatQuad flat = flatten(quad, nodes);
+                    std::span<const Vec3> nodes, ElementMatrices& out, std::span<const Vec3> directors) {
+  const FlatQuad flat = flat_quad(quad, nodes);
   const ShellTheory theory = theory_of(quad, section, material, nodes, flat);
   const Points gauss = points(flat);
 
@@ -331,7 +308,8 @@ void quad4_matrices(const Quad4& quad, const ShellSection& section, const Materi
 
   std::array<Vec3, 4> arms = flat.arms;
   for (Vec3& arm : arms) arm.z() += quad.offset;
-  shell_to_basic_frame<4>(membrane.K, K_plate, flat.R, arms, out.K, theory.coupled ? &K_coupling : nullptr);
+  const bool curved = add_surface_terms(quad, directors, flat, theory.coupled, membrane.K, K_plate, K_coupling);
+  shell_to_basic_frame<4>(membrane.K, K_plate, flat.R, arms, out.K, theory.coupled || curved ? &K_coupling : nullptr);
   Mat12 M_membrane = Mat12::Zero();
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 4; ++j) M_membrane(3 * i, 3 * j) = M_membrane(3 * i + 1, 3 * j + 1) = theory.mass * NN(i, j);
@@ -341,28 +319,35 @@ void quad4_matrices(const Quad4& quad, const ShellSection& section, const Materi
 
 void quad4_geometric_stiffness(const Quad4& quad, const ShellSection& section, const Material& material,
                                std::span<const Vec3> nodes, const Eigen::Ref<const Eigen::VectorXd>& u,
-                               ElementMatrices::Matrix& out) {
-  const FlatQuad flat = flatten(quad, nodes);
+                               ElementMatrices::Matrix& out, std::span<const Vec3> directors) {
+  const FlatQuad flat = flat_quad(quad, nodes);
   const ShellTheory theory = theory_of(quad, section, material, nodes, flat);
   const Points gauss = points(flat);
   std::array<Vec3, 4> arms = flat.arms;
   for (Vec3& arm : arms) arm.z() += quad.offset;
 
-  Vec3 strain = Vec3::Zero(), curvature = Vec3::Zero();  // the element's means, B₀ u and ∮ β n ds / area
-  std::array<Vec3, 4> across;                            // (w θx θy)
+  Eigen::Matrix<double, 8, 1> in_plane;
+  Column12 bending;  // (w θx θy)
   std::array<PlateEdge, 4> edge;
   for (int i = 0; i < 4; ++i) {
     const auto k = static_cast<std::size_t>(i);
+    const int j = (i + 1) % 4;
     const Vec3 turn = flat.R.transpose() * u.segment<3>(6 * i + 3);
     const Vec3 corner = flat.R.transpose() * u.segment<3>(6 * i) + turn.cross(arms[k]);
-    const double b = gauss.centre.N_x[i], c = gauss.centre.N_y[i];
-    strain += Vec3(b * corner.x(), c * corner.y(), c * corner.x() + b * corner.y());
-    across[k] << corner.z(), turn.x(), turn.y();
-    const int j = (i + 1) % 4;
+    in_plane.segment<2>(2 * i) = corner.head<2>();
+    bending.segment<3>(3 * i) << corner.z(), turn.x(), turn.y();
     edge[k] = plate_edge(theory, flat.x[j] - flat.x[i], flat.y[j] - flat.y[i]);
   }
-  for (std::size_t k = 0; k < 4; ++k)
-    curvature += edge_bending(edge[k], across[k], across[(k + 1) % 4]) / (4.0 * gauss.centre.dA);
+  if (SurfaceTerms E; surface_terms(quad, directors, flat, E)) in_plane += E * bending;
+  Vec3 strain = Vec3::Zero(), curvature = Vec3::Zero();  // the element's means, B₀ u and ∮ β n ds / area
+  for (int i = 0; i < 4; ++i) {
+    const double b = gauss.centre.N_x[i], c = gauss.centre.N_y[i], u_i = in_plane[2 * i], v_i = in_plane[2 * i + 1];
+    strain += Vec3(b * u_i, c * v_i, c * u_i + b * v_i);
+  }
+  for (int i = 0; i < 4; ++i)
+    curvature += edge_bending(edge[static_cast<std::size_t>(i)], bending.segment<3>(3 * i),
+                              bending.segment<3>(3 * ((i + 1) % 4))) /
+                 (4.0 * gauss.centre.dA);
   const Mat2 N = stress_resultants(theory, strain, curvature);
   Mat12 K_membrane = Mat12::Zero(), K_plate = Mat12::Zero();
   for (std::size_t g = 0; g < 4; ++g) {

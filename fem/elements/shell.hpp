@@ -7,15 +7,17 @@
 
 namespace tenon::fem {
 
-/// Stiffness and mass of a flat four-node shell, 24×24; a warped one lies in its mean plane, its nodes joined to the
-/// corners by rigid arms. Membrane with incompatible modes, MITC4 shear with edge rotations (exact thin limit),
-/// drilling stiffness relative to the membrane's rotation, no drilling mass. Laminates couple membrane and bending; an
-/// offset carries the middle surface off the nodes along the normal. Theory: shell_theory.hpp, laminate.hpp, quad4.cpp.
+/// Stiffness and mass of a four-node shell, 24×24; a warped one lies in its mean plane, its nodes joined to the corners
+/// by rigid arms, and has the membrane strains of the curved surface (quad4_geometry.hpp). Membrane with incompatible
+/// modes, MITC4 shear with edge rotations (exact thin limit), drilling stiffness relative to the membrane's rotation,
+/// no drilling mass. Laminates couple membrane and bending; an offset carries the middle surface off the nodes along
+/// the normal. Theory: shell_theory.hpp, laminate.hpp, quad4.cpp.
 /// @param nodes  positions of all nodes of the model [m]
+/// @param directors  of all nodes (`shell_directors`), zero where a node has none; without them its edges are straight
 /// @throws ModelError naming the element: zero area, folded or crossed corners, thickness, E or G ≤ 0, ν outside
 ///         (−1, 1/2], negative ratios or mass; a ply that is none, a laminate's direction along the normal.
 void quad4_matrices(const Quad4& quad, const ShellSection& section, const Material& material,
-                    std::span<const Vec3> nodes, ElementMatrices& out);
+                    std::span<const Vec3> nodes, ElementMatrices& out, std::span<const Vec3> directors = {});
 
 /// The same for three nodes, 18×18: OPT membrane (its drilling rotations are real stiffness), MITC3 shear with edge
 /// rotations. On curved shells the facet's membrane is freed of what bending of the surface gives it (tria3.cpp).
@@ -34,7 +36,7 @@ void tria3_matrices(const Tria3& tria, const ShellSection& section, const Materi
 /// @throws ModelError as above
 void quad4_geometric_stiffness(const Quad4& quad, const ShellSection& section, const Material& material,
                                std::span<const Vec3> nodes, const Eigen::Ref<const Eigen::VectorXd>& u,
-                               ElementMatrices::Matrix& out);
+                               ElementMatrices::Matrix& out, std::span<const Vec3> directors = {});
 void tria3_geometric_stiffness(const Tria3& tria, const ShellSection& section, const Material& material,
                                std::span<const Vec3> nodes, const Eigen::Ref<const Eigen::VectorXd>& u,
                                ElementMatrices::Matrix& out, std::span<const Vec3> directors = {});

@@ -34,16 +34,18 @@ SmallAssembly assembled(std::vector<Vec3> nodes, const std::vector<std::array<in
   a.nodes = std::move(nodes);
   const ShellSection section{.name = "s", .thickness = t};
   ElementMatrices e;
+  Model model;
+  model.nodes = a.nodes;
   if (cells == Cells::quads) {
+    for (const auto& q : quads) model.elements.emplace_back(Quad4{.nodes = q});
+    const std::vector<Vec3> directors = shell_directors(model);
     for (const auto& q : quads) {
-      quad4_matrices({.nodes = q}, section, material, a.nodes, e);
+      quad4_matrices({.nodes = q}, section, material, a.nodes, e, directors);
       a.add(q, e);
     }
     return a;
   }
   const std::size_t d = cells == Cells::diagonal_13 ? 0 : 1;
-  Model model;
-  model.nodes = a.nodes;
   for (const auto& q : quads) {
     model.elements.emplace_back(Tria3{.nodes = {q[d], q[d + 1], q[d + 2]}});
     model.elements.emplace_back(Tria3{.nodes = {q[d], q[d + 2], q[(d + 3) % 4]}});
@@ -215,6 +217,20 @@ double twisted_beam(const Cover& c, double t, int direction) {
   load[tip] = 1.0;
   return displacements(
       a, [](const Vec3& x, int) { return x.x() > 1e-9; }, load)[tip];
+}
+
+double ring(const Cover& c, double t) {
+  const SmallAssembly a = cover(c, t, elastic(1.0, 0.0), [](double u, double v) {
+    return Vec3(std::cos(0.5 * pi * u), v, std::sin(0.5 * pi * u));
+  });
+  Eigen::VectorXd load = no_load(a);
+  const auto y = [&](int j) { return a.nodes[static_cast<std::size_t>(j * (c.N + 1))].y(); };
+  for (int j = 0; j < c.N; ++j)
+    for (const int k : {j, j + 1}) load[6 * k * (c.N + 1)] += 0.5 * 0.5 * (y(j + 1) - y(j));
+  const auto free = [](const Vec3& x, int d) {
+    return !held_by_symmetry(x, d, 0) && !held_by_symmetry(x, d, 1) && !held_by_symmetry(x, d, 2);
+  };
+  return 2.0 * displacements(a, free, load)[0];
 }
 
 double clamped_plate(const Cover& c, double t, PlateLoad kind) {

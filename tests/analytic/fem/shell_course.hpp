@@ -56,6 +56,10 @@ double full_hemisphere(const Cover& c, double t);
 /// (1) [t = .32: 5.424535e-3, 1.753248e-3; .0032: 5.256e3, 1.294e3].
 double twisted_beam(const Cover& c, double t, int direction);
 
+/// Ring, R = 1, one wide, E = 1, ν = 0, pulled apart along a diameter by two unit line loads: a quarter. What that
+/// diameter grows.
+double ring(const Cover& c, double t);
+
 /// Clamped unit square, a quarter: centre deflection times D under a unit pressure [.00126532] or force [.0056].
 enum class PlateLoad { pressure, force };
 double clamped_plate(const Cover& c, double t, PlateLoad load);

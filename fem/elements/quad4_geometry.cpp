@@ -1,0 +1,132 @@
+#include "fem/elements/quad4_geometry.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+
+#include "fem/error.hpp"
+
+// A bilinear quad x = x̄ + r x_r + s x_s + rs x_d has three constant strains and two that vary. All five follow from
+// the covariant strains along its edges and in its centre (Ko, Lee, Bathe, Comput. Struct. 182 (2017) 404), and these
+// from six chords between nodes in space,
+//
+//   g_ij = (x_j − x_i)·(u_j − u_i)
+//   A = e_rr(0,1) = ¼ g_43,  B = e_rr(0,−1) = ¼ g_12,  C = e_ss(1,0) = ¼ g_23,  D = e_ss(−1,0) = ¼ g_14
+//   E = e_rs(0,0) = (g_13 − g_24) / 16                                                                             (1)
+//   e_rr = ½(A+B) − d + ½ s (A−B) + s² d,  e_ss = ½(C+D) − d + ½ r (C−D) + r² d
+//
+// d = x_d·u_d: with x_d = c_r x_r + c_s x_s in the mean plane it is
+//
+//   d (1 − c_r² − c_s²) = ½ c_r (A−B) + ½ c_s (C−D) − ½ c_r² (A+B) − ½ c_s² (C+D) − 2 c_r c_s E                    (2)
+//
+// which leaves out what warping has across the plane: that would lock. A convex quad has |c_r| + |c_s| < 1.
+//
+// The surface is curved between two nodes, with normals n_i, n_j at them. Bending alone, without strain along it,
+// brings their ends together or apart: of an arc l with curvature κ₀ that bends by δκ, δg = −κ₀ δκ l⁴/12, so that
+//
+//   its own stretch is  g + (1/12) ((n_j − n_i)·Δx) ((θ_j − θ_i) × n)·Δx                                           (3)
+//
+// Neither rigid motions nor flat quads change. Without (3) thin shells lock on skew meshes: chords side by side differ
+// in length, and no displacement in the surface undoes the strain all of them show.
+//
+// The flat membrane hangs on arms a_i at the nodes, u_corner = u + θ × a e_z, and has the chords Δx·Δu_corner in its
+// plane. E adds what (3) says to them.
+namespace tenon::fem {
+namespace {
+
+using Chord = Eigen::Matrix<double, 1, 12>;
+
+/// Tilts of the nodes' normals against the plane's, zero without directors; false if they are none.
+bool normal_tilts(const Quad4& quad, std::span<const Vec3> directors, const Mat3& R,
+                  std::array<Eigen::Vector2d, 4>& m) {
+  m.fill(Eigen::Vector2d::Zero());
+  if (directors.empty()) return false;
+  std::array<Eigen::Vector2d, 4> tilts;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vec3 n = R.transpose() * directors[static_cast<std::size_t>(quad.nodes[i])];
+    if (!(std::abs(n.z()) > 0.5)) return false;  // none, or of another surface
+    tilts[i] = n.head<2>() / n.z();
+    largest = std::max(largest, tilts[i].norm());
+  }
+  if (!(largest > 1e-9)) return false;
+  m = tilts;
+  return true;
+}
+
+/// What (3) adds to the chord of corners i and j, over (w θx θy).
+Chord chord_terms(const FlatQuad& f, const std::array<Eigen::Vector2d, 4>& m, int i, int j) {
+  const auto ki = static_cast<std::size_t>(i), kj = static_cast<std::size_t>(j);
+  const double dx = f.x[j] - f.x[i], dy = f.y[j] - f.y[i];
+  const double bend = (dx * (m[kj].x() - m[ki].x()) + dy * (m[kj].y() - m[ki].y())) / 12.0;
+  const double a_i = f.arms[ki].z(), a_j = f.arms[kj].z();
+  Chord g = Chord::Zero();  // (θ × n)·Δx = θy Δx − θx Δy; Δz = a_i − a_j
+  g.segment<3>(3 * j) << a_i - a_j, (a_j - bend) * dy, (bend - a_j) * dx;
+  g.segment<3>(3 * i) << a_j - a_i, (bend - a_i) * dy, (a_i - bend) * dx;
+  return g;
+}
+
+}  // namespace
+
+FlatQuad flat_quad(const Quad4& quad, std::span<const Vec3> nodes) {
+  std::array<Vec3, 4> p;
+  for (std::size_t i = 0; i < 4; ++i) p[i] = nodes[static_cast<std::size_t>(quad.nodes[i])];
+  const Vec3 d13 = p[2] - p[0], d24 = p[3] - p[1], normal = d13.cross(d24);
+  const double size2 = d13.squaredNorm() + d24.squaredNorm();
+  if (!(normal.norm() > 1e-10 * size2))
+    throw ModelError(fmt::format("quad element {}: its area is zero", quad.id),
+                     "Delete it, or use a triangle where two of its nodes coincide");
+  FlatQuad f;
+  f.R.col(2) = normal.normalized();
+  f.R.col(0) = (d13.normalized() - d24.normalized()).normalized();
+  f.R.col(1) = f.R.col(2).cross(f.R.col(0));
+  const Vec3 centre = 0.25 * (p[0] + p[1] + p[2] + p[3]);
+  for (int i = 0; i < 4; ++i) {
+    const Vec3 local = f.R.transpose() * (p[static_cast<std::size_t>(i)] - centre);
+    f.x[i] = local.x();
+    f.y[i] = local.y();
+    const bool flat = std::abs(local.z()) <= 1e-13 * std::sqrt(size2);
+    f.arms[static_cast<std::size_t>(i)] = flat ? Vec3(0.0, 0.0, 0.0) : Vec3(0.0, 0.0, -local.z());
+  }
+  for (int i = 0; i < 4; ++i) {
+    const int next = (i + 1) % 4, last = (i + 3) % 4;
+    const double turn = (f.x[next] - f.x[i]) * (f.y[last] - f.y[i]) - (f.y[next] - f.y[i]) * (f.x[last] - f.x[i]);
+    if (!(turn > 1e-8 * normal.norm()))
+      throw ModelError(
+          fmt::format("quad element {}: it is folded or crossed, the angle at its corner {} is 180° or more", quad.id,
+                      i + 1),
+          "List the nodes around the element, or split it into two triangles");
+  }
+  return f;
+}
+
+bool surface_terms(const Quad4& quad, std::span<const Vec3> directors, const FlatQuad& f, SurfaceTerms& E) {
+  using Vec2 = Eigen::Vector2d;
+  using Mat2 = Eigen::Matrix2d;
+  using Pair = Eigen::Matrix<double, 2, 12>;
+  std::array<Vec2, 4> m;
+  const bool curved = normal_tilts(quad, directors, f.R, m);
+  if (!curved && f.arms[0].z() == 0.0) return false;
+
+  const Chord A = 0.25 * chord_terms(f, m, 3, 2), B = 0.25 * chord_terms(f, m, 0, 1);  // (1)
+  const Chord C = 0.25 * chord_terms(f, m, 1, 2), D = 0.25 * chord_terms(f, m, 0, 3);
+  const Chord e_rs = (chord_terms(f, m, 0, 2) - chord_terms(f, m, 1, 3)) / 16.0;
+  Mat2 J;  // columns x_r, x_s
+  J << corner_r.dot(f.x), corner_s.dot(f.x), corner_r.dot(f.y), corner_s.dot(f.y);
+  const Mat2 J_inv = (0.25 * J).inverse(), to_plane = J_inv.transpose();
+  const Vec2 x_d(0.25 * corner_h.dot(f.x), 0.25 * corner_h.dot(f.y)), c = J_inv * x_d;
+  const Chord d = (0.5 * c[0] * ((1.0 - c[0]) * A - (1.0 + c[0]) * B) +
+                   0.5 * c[1] * ((1.0 - c[1]) * C - (1.0 + c[1]) * D) - 2.0 * c[0] * c[1] * e_rs) /
+                  (1.0 - c.squaredNorm());  // (2)
+  // corners that show these strains and do not turn: x_r·u_r = e_rr, x_s·u_r = e_rs, …, x_r·u_d + x_d·u_r = ½(A−B)
+  Pair e_r, e_s, e_d;
+  e_r << 0.5 * (A + B) - d, e_rs;
+  e_s << e_rs, 0.5 * (C + D) - d;
+  const Pair u_r = to_plane.lazyProduct(e_r), u_s = to_plane.lazyProduct(e_s);
+  e_d << 0.5 * (A - B) - x_d.transpose().lazyProduct(u_r), 0.5 * (C - D) - x_d.transpose().lazyProduct(u_s);
+  const Pair u_d = to_plane.lazyProduct(e_d);
+  for (int i = 0; i < 4; ++i) E.middleRows<2>(2 * i) = corner_r[i] * u_r + corner_s[i] * u_s + corner_h[i] * u_d;
+  return true;
+}
+
+}  // namespace tenon::fem
