@@ -22,7 +22,14 @@
 //
 // The flat membrane takes these θz and edges for strain: thin shells lock, (1) by θz above all (the hemisphere of
 // t/R = 4e-4, 16 × 16, to a hundredth of its deflection). Subtracted from what it is given, they leave it nothing.
-// Rigid motions have θ_j = θ_i and flat shells m = 0: both stay as they are.
+// Rigid motions have θ_j = θ_i and flat shells m = 0: both stay as they are. What the next terms leave would still lock
+// very thin shells, three drilling strains in each facet against one rotation at each node. Facets that curve take a
+// share of these strains only, α_b and β₀ times
+//
+//   1 / (1 + m̂² A / 12 t²),   m̂ the largest of |m_i − m̄|                                                            (5)
+//
+// so that their energy stays of the order of bending's: all of it in flat facets and where h² ≪ R t, little where thin
+// shells curve, whose facets then are near to constant strain. Any share passes the patch test.
 // Plate: shell_theory.hpp. Everything integrated is quadratic: three points are exact, but for the square of the linked
 // deflection (fourth-order effect).
 namespace tenon::fem {
@@ -56,22 +63,39 @@ FlatTria flatten(const Tria3& tria, std::span<const Vec3> nodes) {
   return f;
 }
 
-/// What (2)–(4) add to (u v θz), from (θx θy) of the nodes; false for a flat facet, or where a node has no director.
-bool curvature_terms(const Tria3& tria, std::span<const Vec3> directors, const FlatTria& f,
-                     Eigen::Matrix<double, 9, 6>& E) {
-  if (directors.empty()) return false;
-  using Vec2 = Eigen::Vector2d;
-  using Row = Eigen::Matrix<double, 1, 6>;
-  std::array<Vec2, 3> m;
-  double tilt = 0.0;
+/// How the surface's normals lie to the facet.
+struct Tilts {
+  std::array<Eigen::Vector2d, 3> m;
+  Eigen::Vector2d mean;
+  bool curved = false;          ///< false for a flat facet, or where a node has no director
+  double drilling_share = 1.0;  ///< (5)
+};
+
+Tilts facet_tilts(const Tria3& tria, std::span<const Vec3> directors, const FlatTria& f, double thickness) {
+  Tilts t;
+  if (directors.empty()) return t;
+  double largest = 0.0, spread2 = 0.0;
   for (std::size_t i = 0; i < 3; ++i) {
     const Vec3 n = f.R.transpose() * directors[static_cast<std::size_t>(tria.nodes[i])];
-    if (!(std::abs(n.z()) > 0.5)) return false;
-    m[i] = n.head<2>() / n.z();
-    tilt = std::max(tilt, m[i].norm());
+    if (!(std::abs(n.z()) > 0.5)) return t;
+    t.m[i] = n.head<2>() / n.z();
+    largest = std::max(largest, t.m[i].norm());
   }
-  if (!(tilt > 1e-9)) return false;
-  const Vec2 mean = (m[0] + m[1] + m[2]) / 3.0;
+  if (!(largest > 1e-9)) return t;
+  t.curved = true;
+  t.mean = (t.m[0] + t.m[1] + t.m[2]) / 3.0;
+  for (const Eigen::Vector2d& m : t.m) spread2 = std::max(spread2, (m - t.mean).squaredNorm());
+  t.drilling_share = 1.0 / (1.0 + spread2 * f.A / (12.0 * thickness * thickness));
+  return t;
+}
+
+/// What (2)–(4) add to (u v θz), from (θx θy) of the nodes.
+Eigen::Matrix<double, 9, 6> curvature_terms(const FlatTria& f, const Tilts& tilts) {
+  using Vec2 = Eigen::Vector2d;
+  using Row = Eigen::Matrix<double, 1, 6>;
+  const std::array<Vec2, 3>& m = tilts.m;
+  const Vec2& mean = tilts.mean;
+  Eigen::Matrix<double, 9, 6> E;
   std::array<Eigen::Matrix<double, 2, 6>, 3> theta;  // θ̂_i
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
@@ -103,15 +127,15 @@ bool curvature_terms(const Tria3& tria, std::span<const Vec3> directors, const F
     E.row(3 * i + 1) = f.y[i] * epsilon.row(1) + f.x[i] * (0.5 * epsilon.row(2) + omega);
     E.row(3 * i + 2) = 0.5 * (m[k] + mean).transpose().lazyProduct(theta[k]);
   }
-  return true;
+  return E;
 }
 
-/// Node forces and moments of unit membrane stress over unit thickness, over (u v θz): α_b = 3/2. Lᵀu/A is the mean
-/// strain.
-Eigen::Matrix<double, 9, 3> lumping(const FlatTria& f) {
+/// Node forces and moments of unit membrane stress over unit thickness, over (u v θz): α_b = 3/2 times (5). Lᵀu/A is
+/// the mean strain.
+Eigen::Matrix<double, 9, 3> lumping(const FlatTria& f, const Tilts& tilts) {
   const auto x = [&f](int i, int j) { return f.x[i] - f.x[j]; };
   const auto y = [&f](int i, int j) { return f.y[i] - f.y[j]; };
-  constexpr double alpha_b = 1.5;
+  const double alpha_b = 1.5 * tilts.drilling_share;
   Eigen::Matrix<double, 9, 3> L;
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3, k = (i + 2) % 3;
@@ -125,8 +149,8 @@ Eigen::Matrix<double, 9, 3> lumping(const FlatTria& f) {
 }
 
 /// Stiffness over (u v θz), (1). Indices i, j, k are cyclic; edges 1-2, 2-3, 3-1.
-Mat9 membrane_stiffness(const ShellTheory& theory, const FlatTria& f) {
-  const double beta_0 = std::max(0.5 * (1.0 - 4.0 * theory.nu * theory.nu), 0.01);
+Mat9 membrane_stiffness(const ShellTheory& theory, const FlatTria& f, const Tilts& tilts) {
+  const double beta_0 = tilts.drilling_share * std::max(0.5 * (1.0 - 4.0 * theory.nu * theory.nu), 0.01);
   const auto x = [&f](int i, int j) { return f.x[i] - f.x[j]; };
   const auto y = [&f](int i, int j) { return f.y[i] - f.y[j]; };
 
@@ -144,7 +168,7 @@ Mat9 membrane_stiffness(const ShellTheory& theory, const FlatTria& f) {
     natural.row(i) << x(j, i) * x(j, i), y(j, i) * y(j, i), x(j, i) * y(j, i);
     natural.row(i) /= l2[i];
   }
-  const Eigen::Matrix<double, 9, 3> L = lumping(f);
+  const Eigen::Matrix<double, 9, 3> L = lumping(f, tilts);
   const Eigen::Matrix<double, 9, 3> LC = L.lazyProduct(theory.membrane / f.A);
   Mat9 K = LC.lazyProduct(L.transpose());
 
@@ -222,7 +246,8 @@ void tria3_matrices(const Tria3& tria, const ShellSection& section, const Materi
   const ShellTheory theory =
       shell_theory(section, material, tria.material_axis, flat.R.col(0), flat.R, "triangle", tria.id);
 
-  const Mat9 K_membrane = membrane_stiffness(theory, flat);
+  const Tilts tilt = facet_tilts(tria, directors, flat, theory.thickness);
+  const Mat9 K_membrane = membrane_stiffness(theory, flat, tilt);
   Mat9 K_plate, M_plate, K_coupling, M_membrane = Mat9::Zero();
   Eigen::Matrix<double, 9, 3> kappa;
   plate(theory, flat, K_plate, M_plate, kappa);
@@ -230,11 +255,13 @@ void tria3_matrices(const Tria3& tria, const ShellSection& section, const Materi
     for (int j = 0; j < 3; ++j)  // ∫ N_i N_j dA = A (1 + δ_ij)/12
       M_membrane(3 * i, 3 * j) = M_membrane(3 * i + 1, 3 * j + 1) = theory.mass * flat.A * (i == j ? 2.0 : 1.0) / 12.0;
   if (theory.coupled)  // A ε̄ᵀ B κ̄, ε̄ = Lᵀu/A
-    K_coupling = Eigen::Matrix<double, 9, 3>(lumping(flat).lazyProduct(theory.coupling)).lazyProduct(kappa.transpose());
+    K_coupling =
+        Eigen::Matrix<double, 9, 3>(lumping(flat, tilt).lazyProduct(theory.coupling)).lazyProduct(kappa.transpose());
   std::array<Vec3, 3> arms;
   arms.fill(Vec3(0.0, 0.0, tria.offset));
   Eigen::Matrix<double, 18, 18> K = join_shell<3>(K_membrane, K_plate, theory.coupled ? &K_coupling : nullptr);
-  if (Eigen::Matrix<double, 9, 6> E; curvature_terms(tria, directors, flat, E)) {
+  if (tilt.curved) {
+    const Eigen::Matrix<double, 9, 6> E = curvature_terms(flat, tilt);
     Eigen::Matrix<double, 18, 18> T = Eigen::Matrix<double, 18, 18>::Identity();
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) {
@@ -272,11 +299,12 @@ void tria3_geometric_stiffness(const Tria3& tria, const ShellSection& section, c
     N_y[i] = (flat.x[k] - flat.x[j]) / (2.0 * flat.A);
     edge[static_cast<std::size_t>(i)] = plate_edge(theory, flat.x[j] - flat.x[i], flat.y[j] - flat.y[i]);
   }
-  if (Eigen::Matrix<double, 9, 6> E; curvature_terms(tria, directors, flat, E)) in_plane += E * across;
+  const Tilts tilt = facet_tilts(tria, directors, flat, theory.thickness);
+  if (tilt.curved) in_plane += curvature_terms(flat, tilt) * across;
   Vec3 curvature = Vec3::Zero();  // the element's mean
   for (std::size_t k = 0; k < 3; ++k) curvature += edge_bending(edge[k], bending[k], bending[(k + 1) % 3]) / flat.A;
   const Eigen::Matrix2d N =
-      flat.A / 3.0 * stress_resultants(theory, lumping(flat).transpose() * in_plane / flat.A, curvature);
+      flat.A / 3.0 * stress_resultants(theory, lumping(flat, tilt).transpose() * in_plane / flat.A, curvature);
   Mat9 K_membrane = Mat9::Zero(), K_plate = Mat9::Zero();
   for (int g = 0; g < 3; ++g) {
     Vec3 area = Vec3::Constant(1.0 / 6.0);
