@@ -139,11 +139,12 @@ TEST(ShellDirectors, AreForShells) {
 struct BentTube {
   static constexpr double length = 0.6, t = 1e-4;
   const Material material{"m", 1.0, 0.5, 0.0, 1.0};
-  const ShellSection section{.name = "s", .thickness = t};
+  ShellSection section{.name = "s", .thickness = t};
   Model model;
   std::vector<Vec3> directors;
 
-  BentTube(int n, Cells cells) {
+  BentTube(int n, Cells cells, std::vector<Ply> plies = {}) {
+    section.plies = std::move(plies);
     model = (cells == Cells::quads ? quads : triangles)(n, 4, [n](double u, double v) {
       const double phi = 2.0 * std::numbers::pi * (u + 0.25 / n * v);
       return Vec3(std::cos(phi), std::sin(phi), length * v);
@@ -173,8 +174,8 @@ struct BentTube {
 // quad4_geometry.cpp leave, h⁴ in the strain and h⁸ in its energy, is 16 % of it with 64 quads around, 3 % with
 // triangles; without directors the membrane takes tens and hundreds of times as much.
 TEST(ShellDirectors, InextensionalBendingStrainsNoMembrane) {
-  const auto ratio = [&](Cells cells, int n, bool curved) {
-    const BentTube tube(n, cells);
+  const auto ratio = [&](Cells cells, int n, bool curved, const std::vector<Ply>& plies = {}) {
+    const BentTube tube(n, cells, plies);
     const std::span<const Vec3> directors = curved ? std::span<const Vec3>(tube.directors) : std::span<const Vec3>();
     double energy = 0.0;
     ElementMatrices e;
@@ -192,6 +193,10 @@ TEST(ShellDirectors, InextensionalBendingStrainsNoMembrane) {
     EXPECT_NEAR(ratio(cells, 64, true), 1.0, cells == Cells::quads ? 0.2 : 0.04);
     EXPECT_NEAR(ratio(cells, 128, true), 1.0, 0.005);
     EXPECT_GT(ratio(cells, 64, false), 10.0);
+    // E = 1 below, 2 above: B ≠ 0, and D is 3/2 of that of E = 1
+    const Ply soft{.thickness = 0.5 * BentTube::t, .E1 = 1.0, .E2 = 1.0, .G12 = 0.5},
+        stiff{.thickness = 0.5 * BentTube::t, .E1 = 2.0, .E2 = 2.0, .G12 = 1.0};
+    EXPECT_NEAR(ratio(cells, 128, true, {soft, stiff}), 1.5, 0.0075);
   }
 }
 
@@ -226,8 +231,11 @@ TEST(ShellDirectors, LeaveSixZeroModes) {
     const std::vector<Vec3>& normals = model.nodes;  // those of the sphere
     ElementMatrices e;
     for (const Element& element : model.elements)
-      for (const double t : {0.3, 1e-2}) {
-        const ShellSection section{.name = "s", .thickness = t};
+      for (const double t : {0.3, 1e-2, 2e-2}) {
+        ShellSection section{.name = "s", .thickness = t};
+        if (t == 2e-2)  // unsymmetric
+          section.plies = {{.thickness = 0.5 * t, .angle = 0.4, .E1 = 25.0, .E2 = 1.0, .nu12 = 0.25, .G12 = 0.5},
+                           {.thickness = 0.5 * t, .angle = 1.3, .E1 = 25.0, .E2 = 1.0, .nu12 = 0.25, .G12 = 0.5}};
         const Material material{"m", 1.0, 0.4, 0.25, 1.0};
         if (const auto* quad = std::get_if<Quad4>(&element))
           quad4_matrices(*quad, section, material, model.nodes, e, normals);
