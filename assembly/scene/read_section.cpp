@@ -58,7 +58,11 @@ struct Sizes {
 };
 
 Sizes read_sizes(const std::string& key, const Value& value, const Units& units) {
-  if (key == "general") return {{}, read_general(value, units)};
+  if (key == "general") {
+    if (value.kind != Value::Kind::map)
+      throw InputError(value.place, "found no constants of a section", "Write {A: ..., Iy: ..., Iz: ..., J: ...}");
+    return {{}, read_general(value, units)};
+  }
   if (key == "circle") return {{positive(value, dimension::length, units)}, {}};
   std::size_t count = key == "tube" || key == "rectangle" ? 2 : key == "box" ? 3 : 4;
   if (key == "i" && value.items.size() == 6) count = 6;

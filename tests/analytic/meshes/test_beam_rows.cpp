@@ -162,3 +162,26 @@ TEST_F(BeamRows, RodUnderTensionSDLL101) {
                   std::pow(3.0 * pi / 20.0, 4) / 1440.0);
   }
 }
+
+// A tapered `beam:` is the mesh of its elements; off the mesh's way nothing is known of its section.
+TEST_F(BeamRows, TaperedBeamBody) {
+  const std::string section = "rectangle: [0.04, 0.05], tip: [0.01, 0.02], orientation: [0, 0, 1]";
+  const auto lambda = [&](const std::string& body) {
+    const auto scene = folder_.write("scene.yaml", "units: SI\nbodies:\n  part: " + body + "\n");
+    return Eigen::VectorXd(
+        reduction::solve_modes(fem::assemble(assembly::build_model(assembly::read_scene(scene).bodies.front())),
+                               {.count = 12})
+            .lambda.tail(6));
+  };
+  const std::string mesh = straight_mesh(12, 1.0);
+  const auto of_mesh = [&](double reach) {
+    return fmt::format(
+        "{{fe: {}, material: steel, sections: {{beam: {{{}, along: [[0, 0, 0], [{}, 0, 0]]}}}}, ports: "
+        "{{tip: {{set: right}}}}}}",
+        mesh, section, reach);
+  };
+  const Eigen::VectorXd beam =
+      lambda("{beam: {from: [0, 0, 0], to: [1, 0, 0], elements: 12, section: {" + section + "}, material: steel}}");
+  EXPECT_LT((beam.array() / lambda(of_mesh(1.0)).array() - 1.0).abs().maxCoeff(), 1e-9);
+  EXPECT_THROW(lambda(of_mesh(0.9)), InputError);
+}
