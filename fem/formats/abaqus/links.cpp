@@ -67,43 +67,53 @@ void LinkReader::rigid_body(const Block& block) {
     for (const int e : draft.element_set(block.value("ELSET"), block.place))
       for (const int node : draft.nodes_of(e)) nodes.push_back(node);
   if (block.has("ANALYTICAL SURFACE")) draft.losses.add("*RIGID BODY", "ANALYTICAL SURFACE: a surface for contact");
+  std::vector<int> pinned;
+  if (block.has("PIN NSET")) pinned = draft.node_set(block.value("PIN NSET"), block.place);
+  const auto others = [&](const std::vector<int>& set) { return std::ssize(set) - std::ranges::count(set, ref); };
+  if (others(nodes) + others(pinned) == 0)
+    block.refuse("*RIGID BODY has no nodes besides its reference", "Name them by NSET, ELSET, TIE NSET or PIN NSET");
   rigid(ref, sorted_unique(std::move(nodes)), all_six);
-  if (block.has("PIN NSET")) rigid(ref, draft.node_set(block.value("PIN NSET"), block.place), 0b000111);
+  rigid(ref, std::move(pinned), 0b000111);
   if (block.has("ROT NODE"))
     for (int d = 0; d < 3; ++d) equate(reference(block, "ROT NODE"), d, ref, 3 + d);
 }
 
 /// Nodes of *SURFACE: lists of nodes, or sides of shells.
 std::vector<int> LinkReader::surface(const Block& asker, const std::string& name) {
+  const Block* found = nullptr;
   for (const Block& block : draft.text.blocks) {
     if (block.keyword != "SURFACE" || upper(block.value("NAME")) != upper(name)) continue;
-    std::vector<int> nodes;
-    const bool of_nodes = block.upper_value("TYPE") == "NODE";
-    DataLines line(block);
-    while (line.next()) {
-      if (of_nodes) {
-        for (const int node : draft.nodes(line, 0, "a node or a node set")) nodes.push_back(node);
-        continue;
-      }
-      const std::string side = upper(line.at(1));
-      if (!side.empty() && side != "SPOS" && side != "SNEG")
-        line.refuse(1, fmt::format("side {} of elements is not read", side),
-                    "Give the surface as a list of nodes (*SURFACE, TYPE=NODE)");
-      std::vector<int> elements;
-      if (const auto id = parse_integer(line.at(0))) {
-        const auto found = draft.element_of.find(*id);
-        if (found == draft.element_of.end())
-          line.refuse(0, fmt::format("element {} is not defined", *id), "Correct the number");
-        elements.push_back(found->second);
-      } else {
-        elements = draft.element_set(std::string(line.at(0)), line.place(0));
-      }
-      for (const int e : elements)
-        for (const int node : draft.nodes_of(e)) nodes.push_back(node);
-    }
-    return sorted_unique(std::move(nodes));
+    if (found)
+      block.refuse(fmt::format("surface '{}' stands already at {}", block.value("NAME"), to_string(found->place)),
+                   "Give it a name of its own or remove one of the two");
+    found = &block;
   }
-  asker.refuse(fmt::format("there is no surface '{}'", name), "Define it by *SURFACE");
+  if (!found) asker.refuse(fmt::format("there is no surface '{}'", name), "Define it by *SURFACE");
+  std::vector<int> nodes;
+  const bool of_nodes = found->upper_value("TYPE") == "NODE";
+  DataLines line(*found);
+  while (line.next()) {
+    if (of_nodes) {
+      for (const int node : draft.nodes(line, 0, "a node or a node set")) nodes.push_back(node);
+      continue;
+    }
+    const std::string side = upper(line.at(1));
+    if (!side.empty() && side != "SPOS" && side != "SNEG")
+      line.refuse(1, fmt::format("side {} of elements is not read", side),
+                  "Give the surface as a list of nodes (*SURFACE, TYPE=NODE)");
+    std::vector<int> elements;
+    if (const auto id = parse_integer(line.at(0))) {
+      const auto element = draft.element_of.find(*id);
+      if (element == draft.element_of.end())
+        line.refuse(0, fmt::format("element {} is not defined", *id), "Correct the number");
+      elements.push_back(element->second);
+    } else {
+      elements = draft.element_set(std::string(line.at(0)), line.place(0));
+    }
+    for (const int e : elements)
+      for (const int node : draft.nodes_of(e)) nodes.push_back(node);
+  }
+  return sorted_unique(std::move(nodes));
 }
 
 /// First to last dof on a data line as bits; both blank: all six.
@@ -240,6 +250,7 @@ void read_transforms(Draft& draft) {
     for (const int node : draft.node_set(set, block.place)) {
       Mat3 axes;
       if (type == "C") {  // a, b on the axis: radial, around, along
+        if (a == b) line.refuse(0, "the two points on the axis of *TRANSFORM are one", "Correct them");
         const Vec3 axial = (b - a).normalized(), arm = draft.deck.model.nodes[static_cast<std::size_t>(node)] - a;
         const Vec3 radial = arm - axial.dot(arm) * axial;
         if (!(radial.norm() > 1e-12 * (1.0 + arm.norm())))
@@ -268,6 +279,9 @@ void read_links(Draft& draft) {
           i + 1 < blocks.size() && (blocks[i + 1].keyword == "KINEMATIC" || blocks[i + 1].keyword == "DISTRIBUTING");
       reader.coupling(blocks[i], kind ? &blocks[i + 1] : nullptr);
     }
+    if ((keyword == "KINEMATIC" || keyword == "DISTRIBUTING") && (i == 0 || blocks[i - 1].keyword != "COUPLING"))
+      blocks[i].refuse(fmt::format("*{} does not stand behind a *COUPLING", keyword),
+                       "Put it behind the one it belongs to");
     if (keyword == "MPC") reader.mpc(blocks[i]);
     if (keyword == "EQUATION") reader.equation(blocks[i]);
   }

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "fem/formats/abaqus/draft.hpp"
 
 namespace tenon::fem::abaqus {
@@ -31,6 +33,7 @@ void density(const Block& block, DraftMaterial& current) {
 
 void read_materials(Draft& draft) {
   DraftMaterial* current = nullptr;
+  bool has_elastic = false, has_density = false;
   for (const Block& block : draft.text.blocks) {
     if (block.keyword == "MATERIAL") {
       const std::string name = block.value("NAME");
@@ -42,8 +45,12 @@ void read_materials(Draft& draft) {
       current = &entry->second;
       current->place = block.place;
       current->material.name = name;
+      has_elastic = has_density = false;
     } else if (block.keyword == "ELASTIC" || block.keyword == "DENSITY") {
       if (!current) block.refuse(fmt::format("*{} stands under no *MATERIAL", block.keyword), "Put it behind one");
+      if (bool& given = block.keyword == "ELASTIC" ? has_elastic : has_density; std::exchange(given, true))
+        block.refuse(fmt::format("found a second *{} of material '{}'", block.keyword, current->material.name),
+                     "Keep one of the two");
       block.keyword == "ELASTIC" ? elastic(block, *current) : density(block, *current);
     }
   }

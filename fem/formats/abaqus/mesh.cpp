@@ -70,7 +70,12 @@ bool letters(std::string_view rest) {
   return std::ranges::all_of(rest, [](char c) { return (c >= 'A' && c <= 'Z') || c == '5'; });  // S4R5, S8R5
 }
 
-void add_to_set(auto& sets, const std::string& name, const std::vector<int>& members) {
+/// Adds them to the set that the block names by `parameter`.
+void add_to_set(auto& sets, const Block& block, const char* parameter, const std::vector<int>& members) {
+  const std::string name = block.value(parameter);
+  if (name.empty())
+    block.refuse(fmt::format("*{} gives {} without a name", block.keyword, parameter),
+                 fmt::format("Write {}=name, or leave it out", parameter));
   auto& set = sets.try_emplace(upper(name), name, std::vector<int>{}).first->second.second;
   set.insert(set.end(), members.begin(), members.end());
 }
@@ -116,7 +121,7 @@ void read_nodes(Draft& draft) {
       mesh.points.push_back(at);
       mesh.point_ids.push_back(id);
     }
-    if (block.has("NSET")) add_to_set(draft.node_sets, block.value("NSET"), members);
+    if (block.has("NSET")) add_to_set(draft.node_sets, block, "NSET", members);
   }
   draft.deck.model.nodes = mesh.points;
   draft.deck.model.node_ids = mesh.point_ids;
@@ -169,7 +174,7 @@ void read_elements(Draft& draft) {
       members.push_back(static_cast<int>(draft.elements.size()));
       draft.elements.push_back(e);
     }
-    if (block.has("ELSET")) add_to_set(draft.element_sets, block.value("ELSET"), members);
+    if (block.has("ELSET")) add_to_set(draft.element_sets, block, "ELSET", members);
   }
 }
 
@@ -187,11 +192,12 @@ void read_set(Draft& draft, const Block& block, bool of_nodes) {
     if (block.has("GENERATE")) {
       const long first = line.integer(0, "the first number"), last = line.integer(1, "the last number");
       const long step = line.at(2).empty() ? 1 : line.integer(2, "the step");
+      if (first <= 0) line.fail(0, "a first number above zero");
       if (step <= 0 || last < first) line.fail(1, "a rising range with a step above zero");
       // a range may be longer than the mesh: walk over whichever is shorter
-      if ((last - first) / step < static_cast<long>(index.size())) {
-        for (long id = first; id <= last; id += step)
-          if (const auto found = index.find(id); found != index.end()) members.push_back(found->second);
+      if (const long steps = (last - first) / step; steps < static_cast<long>(index.size())) {
+        for (long i = 0; i <= steps; ++i)  // a number past the last one might not exist
+          if (const auto found = index.find(first + i * step); found != index.end()) members.push_back(found->second);
       } else {
         for (const auto& [id, place] : index)
           if (id >= first && id <= last && (id - first) % step == 0) members.push_back(place);
@@ -218,7 +224,7 @@ void read_set(Draft& draft, const Block& block, bool of_nodes) {
   if (of_nodes && block.has("ELSET"))  // the nodes of an element set
     for (const int e : draft.element_set(block.value("ELSET"), block.place))
       for (const int node : draft.nodes_of(e)) members.push_back(node);
-  add_to_set(of_nodes ? draft.node_sets : draft.element_sets, name, members);
+  add_to_set(of_nodes ? draft.node_sets : draft.element_sets, block, kind, members);
 }
 
 }  // namespace

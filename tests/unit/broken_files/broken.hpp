@@ -27,6 +27,7 @@ struct Family {
   std::vector<Case> cases;
 };
 
+Family abaqus_cases();
 Family gmsh_cases();
 Family nastran_cases();
 Family scene_cases();
