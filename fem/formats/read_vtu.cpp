@@ -32,6 +32,7 @@ class VtuReader {
     fail(node.offset_debug(), what, cure);
   }
   pugi::xml_node load();
+  pugi::xml_node only(pugi::xml_node parent, const char* name) const;
   void read_heading(pugi::xml_node file);
   void read_piece(pugi::xml_node piece);
   void read_cells(pugi::xml_node piece, std::size_t n);
@@ -72,7 +73,14 @@ pugi::xml_node VtuReader::load() {
   const std::string_view xml = text.empty() ? bytes_ : std::string_view(text);
   const auto result = document_.load_buffer(xml.data(), xml.size(), pugi::parse_default, pugi::encoding_utf8);
   if (!result) fail(result.offset, fmt::format("no well-formed XML: {}", result.description()), "Write it again");
-  return document_.child("VTKFile");
+  return only(document_, "VTKFile");
+}
+
+/// The child of that name, an empty one when there is none: of two, one would be read past.
+pugi::xml_node VtuReader::only(pugi::xml_node parent, const char* name) const {
+  const pugi::xml_node first = parent.child(name), second = first.next_sibling(name);
+  if (second) fail(second, fmt::format("found a second {} where one was expected", name));
+  return first;
 }
 
 void VtuReader::read_heading(pugi::xml_node file) {
@@ -131,14 +139,19 @@ Values VtuReader::values(pugi::xml_node array) const {
 }
 
 pugi::xml_node VtuReader::named(pugi::xml_node cells, const char* name) const {
-  const pugi::xml_node array = cells.find_child_by_attribute("DataArray", "Name", name);
-  if (!array) fail(cells, fmt::format("the cells have no array '{}'", name));
-  return array;
+  pugi::xml_node found;
+  for (const pugi::xml_node array : cells.children("DataArray")) {
+    if (array.attribute("Name").value() != std::string_view(name)) continue;
+    if (found) fail(cells, fmt::format("the cells have a second array '{}'", name));
+    found = array;
+  }
+  if (!found) fail(cells, fmt::format("the cells have no array '{}'", name));
+  return found;
 }
 
 void VtuReader::read_cells(pugi::xml_node piece, std::size_t n) {
-  const pugi::xml_node cells = piece.child("Cells");
-  if (n == 0) return;
+  const pugi::xml_node cells = only(piece, "Cells");
+  if (n == 0 && !cells.child("DataArray")) return;
   if (!cells) fail(piece, "the piece has no Cells");
   const Values nodes = values(named(cells, "connectivity")), ends = values(named(cells, "offsets")),
                types = values(named(cells, "types"));
@@ -167,8 +180,9 @@ void VtuReader::read_data(pugi::xml_node group, bool of_cells, std::size_t n) {
 
 void VtuReader::read_piece(pugi::xml_node piece) {
   const std::size_t n = count(piece, "NumberOfPoints"), n_cells = count(piece, "NumberOfCells");
-  const pugi::xml_node array = piece.child("Points").child("DataArray");
+  const pugi::xml_node points = only(piece, "Points"), array = points.child("DataArray");
   if (!array && n > 0) fail(piece, "the piece has no Points");
+  if (array.next_sibling("DataArray")) fail(points, "Points has more than one DataArray");
   const Values x = array ? values(array) : Values{};
   try {
     grid_.add_points(x, n);
@@ -176,14 +190,14 @@ void VtuReader::read_piece(pugi::xml_node piece) {
     fail(array ? array : piece, fault.what, fault.cure);
   }
   read_cells(piece, n_cells);
-  read_data(piece.child("PointData"), false, n);
-  read_data(piece.child("CellData"), true, n_cells);
+  read_data(only(piece, "PointData"), false, n);
+  read_data(only(piece, "CellData"), true, n_cells);
 }
 
 Mesh VtuReader::read() {
   const pugi::xml_node file = load();
   read_heading(file);
-  const auto pieces = file.child("UnstructuredGrid").children("Piece");
+  const auto pieces = only(file, "UnstructuredGrid").children("Piece");
   for (const pugi::xml_node piece : pieces) read_piece(piece);
   if (const auto n = std::distance(pieces.begin(), pieces.end()); n > 1)
     mesh_.losses.push_back({"Piece", n, "points that pieces share stay apart: nothing joins the pieces"});

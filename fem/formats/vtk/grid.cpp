@@ -89,6 +89,8 @@ void Grid::add_cells(const Values& nodes, const Values& ends, const Values& type
     cells_.emplace_back(place, block.size() - 1);
     start = ends.whole[c];
   }
+  if (start != std::ssize(nodes.whole))
+    fail(fmt::format("the {} cells take {} of {} nodes in their list", n, start, nodes.size()));
 }
 
 void Grid::add_data(bool of_cells, const std::string& name, const Values& values, std::size_t n) {

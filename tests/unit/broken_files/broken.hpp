@@ -33,6 +33,7 @@ Family nastran_cases();
 Family scene_cases();
 Family body_cases();
 Family vtk_cases();
+Family vtu_cases();
 
 /// A word of a text and where it stands.
 struct Word {

@@ -18,7 +18,8 @@ struct Entry {
   std::size_t least;  ///< so that no case gets lost
 };
 constexpr Entry table[] = {{"gmsh", gmsh_cases, 300},  {"abaqus", abaqus_cases, 240}, {"nastran", nastran_cases, 100},
-                           {"scene", scene_cases, 60}, {"body", body_cases, 60},      {"vtk", vtk_cases, 120}};
+                           {"scene", scene_cases, 60}, {"body", body_cases, 60},      {"vtk", vtk_cases, 120},
+                           {"vtu", vtu_cases, 250}};
 
 class BrokenFiles : public testing::TestWithParam<Entry> {};
 
