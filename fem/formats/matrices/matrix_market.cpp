@@ -81,14 +81,17 @@ void each_entry(market::Text& text, const Banner& banner, std::size_t n, const s
   }
 }
 
-/// Where the entry stands that couples two dofs; which of them, counted from 0.
-std::size_t place_of(const std::filesystem::path& path, std::size_t n, const matrices::Asymmetry& fault, int which) {
+/// Where the entry stands that couples two dofs: the first of them, or the second that is one too many.
+std::size_t place_of(const std::filesystem::path& path, std::size_t n, const matrices::Asymmetry& fault) {
   market::Text text(path, "");
   std::size_t found = 0;
+  int others = fault.twice ? 1 : 0;  // ahead of it
+  const Banner banner = read_banner(text);
   each_entry(
-      text, read_banner(text), n, [](std::size_t) {},
+      text, banner, n, [](std::size_t) {},
       [&](int i, int j, double, std::size_t at) {
-        if (std::minmax(i, j) == std::minmax(fault.row, fault.column) && which-- == 0) found = at;
+        const bool same = i == fault.row && j == fault.column, mirrored = j == fault.row && i == fault.column;
+        if ((same || (mirrored && !(fault.twice && banner.general))) && others-- == 0) found = at;
       });
   return found;
 }
@@ -107,10 +110,10 @@ SparseMatrix read_matrix_market(const std::filesystem::path& path, const std::ve
   const auto* const fault = std::get_if<matrices::Asymmetry>(&result);
   if (!fault) return std::move(std::get<SparseMatrix>(result));
   if (fault->twice)
-    text.fail(place_of(path, rows.size(), *fault, 1),
+    text.fail(place_of(path, rows.size(), *fault),
               fmt::format("the entry ({}, {}) is given twice", fault->row + 1, fault->column + 1),
               banner.general ? "Write each entry once, summed" : "A symmetric file holds one triangle");
-  text.fail(place_of(path, rows.size(), *fault, 0),
+  text.fail(place_of(path, rows.size(), *fault),
             fmt::format("the matrix is not symmetric: {:.17g} and {:.17g} couple {} and {}, the worst of its entries",
                         fault->lower, fault->upper, matrices::to_string(rows[static_cast<std::size_t>(fault->row)]),
                         matrices::to_string(rows[static_cast<std::size_t>(fault->column)])),

@@ -72,6 +72,8 @@ std::variant<SparseMatrix, Asymmetry> lower_triangle(Eigen::Index n, std::vector
       const bool upper = keys[i] % 2 != 0, pair = i + 1 < end && keys[i + 1] / 2 == row;
       if (pair && (keys[i + 1] == keys[i] || stored == Stored::one))
         return Asymmetry{true, upper ? column : row, upper ? row : column, values[i], values[i + 1]};
+      if (pair && i + 2 < end && keys[i + 2] == keys[i + 1])  // once below the diagonal, twice above it
+        return Asymmetry{true, column, row, values[i + 1], values[i + 2]};
       const double a = values[i], b = pair ? values[++i] : row == column || stored != Stored::both ? a : 0.0;
       const double scale = std::max(largest[static_cast<std::size_t>(row)], largest[static_cast<std::size_t>(column)]);
       if (std::abs(a - b) > gap * scale) {

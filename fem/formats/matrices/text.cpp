@@ -51,7 +51,7 @@ long Text::whole(const char* what, long least, long most) {
 double Text::real(const char* what) {
   std::string_view text = word(what);
   const std::string_view all = text;
-  if (text.front() == '+') text.remove_prefix(1);
+  if (text.front() == '+' && !text.starts_with("+-")) text.remove_prefix(1);
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   const bool whole_word = end == text.data() + text.size();

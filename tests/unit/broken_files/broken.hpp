@@ -34,6 +34,10 @@ Family scene_cases();
 Family body_cases();
 Family vtk_cases();
 Family vtu_cases();
+Family market_cases();
+Family label_cases();
+Family calculix_cases();
+Family abaqus_matrix_cases();
 
 /// A word of a text and where it stands.
 struct Word {

@@ -17,9 +17,17 @@ struct Entry {
   Family (*cases)();
   std::size_t least;  ///< so that no case gets lost
 };
-constexpr Entry table[] = {{"gmsh", gmsh_cases, 300},  {"abaqus", abaqus_cases, 240}, {"nastran", nastran_cases, 100},
-                           {"scene", scene_cases, 60}, {"body", body_cases, 60},      {"vtk", vtk_cases, 120},
-                           {"vtu", vtu_cases, 250}};
+constexpr Entry table[] = {{"gmsh", gmsh_cases, 300},
+                           {"abaqus", abaqus_cases, 240},
+                           {"nastran", nastran_cases, 100},
+                           {"scene", scene_cases, 60},
+                           {"body", body_cases, 60},
+                           {"vtk", vtk_cases, 120},
+                           {"vtu", vtu_cases, 250},
+                           {"market", market_cases, 105},
+                           {"labels", label_cases, 55},
+                           {"calculix", calculix_cases, 68},
+                           {"abaqus_matrices", abaqus_matrix_cases, 48}};
 
 class BrokenFiles : public testing::TestWithParam<Entry> {};
 
