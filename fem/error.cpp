@@ -12,10 +12,17 @@ std::string to_string(const Place& place) {
 
 namespace {
 
-/// A sentence ends once: questions ("Did you mean ...?") and sentences that bring their stop keep it.
+/// A sentence ends once: questions ("Did you mean ...?") and sentences that bring their stop keep it. Control
+/// characters that a damaged file brought into it are spelt out: a zero byte would end the message.
 std::string sentence(const std::string& text) {
+  std::string printed;
+  for (const char c : text)
+    if ((c >= 0 && c < 32 && c != '\n' && c != '\t') || c == 127)
+      printed += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
+    else
+      printed += c;
   const bool ended = !text.empty() && (text.back() == '?' || text.back() == '.');
-  return ended ? text : text + '.';
+  return ended ? printed : printed + '.';
 }
 
 }  // namespace

@@ -96,7 +96,7 @@ class AsciiReader {
       const std::int64_t count = integer(2, "the length of a column");
       if (column > matrix.columns) break;
       check(filler.begin(column));
-      if (row > 0)
+      if (row != 0)
         numbers(filler, row, count);
       else
         strings(matrix, filler, big, words_of_number, count);
@@ -132,8 +132,14 @@ class AsciiReader {
   void numbers(ColumnFiller& filler, std::int64_t row, std::int64_t count) {
     check(filler.begin_string(row, count));
     std::size_t column = 0;
+    const auto end_line = [&] {
+      if (!trim(part(column, line_.size())).empty())
+        fail(fmt::format("found '{}' behind the last number expected here", trim(part(column, 40))),
+             static_cast<long>(column) + 1);
+    };
     for (std::int64_t i = 0; i < count; ++i) {
       if (i % per_line_ == 0) {
+        if (i > 0) end_line();
         require_line([&] { return fmt::format("{} more numbers", count - i); });
         column = 0;
       }
@@ -146,9 +152,7 @@ class AsciiReader {
       check(filler.add(*value));
       column += width_;
     }
-    if (!trim(part(column, line_.size())).empty())
-      fail(fmt::format("found '{}' behind the last number expected here", trim(part(column, 40))),
-           static_cast<long>(column) + 1);
+    end_line();
   }
 
   /// "1P,3E23.16" → 3 numbers of 23 columns a line; 5 of 16 when the header names none.

@@ -108,7 +108,7 @@ class BinaryReader {
                        matrix.name));
     check(filler.begin(column));
     const std::size_t width = single ? 4 : 8;
-    if (row > 0) {
+    if (row != 0) {
       numbers(filler, row, data_.size(), width);
     } else {
       while (!data_.empty()) {

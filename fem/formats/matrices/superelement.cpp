@@ -186,6 +186,11 @@ MatrixData read_nastran_superelement(const std::string& asm_file) {
     return data;
   }
 
+  if (!fs::exists(matrices_file, ignored))
+    throw InputError({asm_file},
+                     fmt::format("holds no DMIG, and there is no {} beside it", matrices_file.filename().string()),
+                     "Keep the .op4 of the same run beside it");
+
   std::vector<NamedMatrix> all = read_op4(matrices_file);
   NamedMatrix& K = choose(op4_name, all, {"KXX", "KAAX", "KAA"});
   NamedMatrix& M = choose(op4_name, all, {"MXX", "MAAX", "MAA"});

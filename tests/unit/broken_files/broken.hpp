@@ -38,6 +38,9 @@ Family market_cases();
 Family label_cases();
 Family calculix_cases();
 Family abaqus_matrix_cases();
+Family op4_cases();
+Family superelement_cases();
+Family punch_cases();
 
 /// A word of a text and where it stands.
 struct Word {

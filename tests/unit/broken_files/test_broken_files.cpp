@@ -27,7 +27,10 @@ constexpr Entry table[] = {{"gmsh", gmsh_cases, 300},
                            {"market", market_cases, 105},
                            {"labels", label_cases, 55},
                            {"calculix", calculix_cases, 68},
-                           {"abaqus_matrices", abaqus_matrix_cases, 48}};
+                           {"abaqus_matrices", abaqus_matrix_cases, 48},
+                           {"op4", op4_cases, 190},
+                           {"superelement", superelement_cases, 35},
+                           {"punch", punch_cases, 75}};
 
 class BrokenFiles : public testing::TestWithParam<Entry> {};
 
