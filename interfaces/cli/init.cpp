@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cctype>
+#include <set>
 
 #include "fem/error.hpp"
 #include "fem/formats/atomic_file.hpp"
@@ -23,13 +24,25 @@ int dimension_of(const fem::Mesh& mesh, const std::vector<std::vector<int>>& blo
   return dimension;
 }
 
+/// Letters and digits that mean themselves: `null` and its like would not.
 bool is_plain(const std::string& name) {
-  return !name.empty() && std::isalpha(static_cast<unsigned char>(name.front())) &&
+  static const std::set<std::string> words{"null", "true", "false", "yes", "no", "on", "off", "y", "n"};
+  std::string lower;
+  for (const unsigned char c : name) lower += static_cast<char>(std::tolower(c));
+  return !name.empty() && std::isalpha(static_cast<unsigned char>(name.front())) && !words.contains(lower) &&
          std::ranges::all_of(name, [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; });
 }
 
-/// A name of the file as a value or key of the scene.
-std::string quoted(const std::string& name) { return is_plain(name) ? name : Json(name).dump(); }
+/// A name of the file as a value or key of the scene. Throws InputError for one that is no UTF-8, as scenes are.
+std::string quoted(const std::string& name, const std::filesystem::path& file) {
+  if (is_plain(name)) return name;
+  try {
+    return Json(name).dump();
+  } catch (const Json::exception&) {
+    throw InputError({file.string()}, fmt::format("the name '{}' is no UTF-8 text, as a scene is", name),
+                     "Rename it in letters without accents, or save the file as UTF-8");
+  }
+}
 
 /// A name that the scene's words can point at.
 std::string as_word(std::string name) {
@@ -48,8 +61,8 @@ std::string section_lines(const fem::Mesh& mesh, const std::filesystem::path& fi
   std::string text;
   for (const auto& [set, blocks] : mesh.cell_sets) {
     const int dimension = dimension_of(mesh, blocks);
-    if (dimension == 2) text += fmt::format("      {}: {}\n", quoted(set), shell_words);
-    if (dimension == 1) text += fmt::format("      {}: {}\n", quoted(set), beam_words);
+    if (dimension == 2) text += fmt::format("      {}: {}\n", quoted(set, file), shell_words);
+    if (dimension == 1) text += fmt::format("      {}: {}\n", quoted(set, file), beam_words);
   }
   if (!text.empty()) return text;
   int highest = 0;
@@ -61,33 +74,69 @@ std::string section_lines(const fem::Mesh& mesh, const std::filesystem::path& fi
   return fmt::format("      everywhere: {}\n", highest == 2 ? shell_words : beam_words);
 }
 
-/// Sets of points as ports, small ones first; one that shares points with those before, or holds most of the mesh, is
-/// left as a comment.
-std::string port_lines(const fem::Mesh& mesh) {
+/// Points of which the deck holds a direction: no joint can take them.
+std::vector<bool> held_points(const fem::Mesh& mesh, const fem::Model& model) {
+  std::vector<bool> held(mesh.points.size(), false);
+  const auto hold = [&](int node) {
+    if (const auto point = static_cast<std::size_t>(node); point < held.size()) held[point] = true;
+  };
+  for (const fem::Support& support : model.supports) hold(support.dof.node);
+  for (const fem::LinearConstraint& constraint : model.constraints) {  // one node alone: held in turned directions
+    const auto other = [&](const auto& term) { return term.dof.node != constraint.terms.front().dof.node; };
+    if (!constraint.terms.empty() && std::ranges::none_of(constraint.terms, other))
+      hold(constraint.terms.front().dof.node);
+  }
+  return held;
+}
+
+/// The point of the cells nearest to the origin that is not held, by its number in the file.
+std::string free_point(const fem::Mesh& mesh, const std::vector<bool>& held) {
+  int nearest = -1;
+  for (const fem::CellBlock& block : mesh.cells)
+    for (const int p : block.nodes) {
+      const auto squared = [&](int q) { return mesh.points[static_cast<std::size_t>(q)].squaredNorm(); };
+      if (!held[static_cast<std::size_t>(p)] && (nearest < 0 || squared(p) < squared(nearest))) nearest = p;
+    }
+  if (nearest < 0) return "{nearest: [0, 0, 0]}";
+  return fmt::format("{{node: {}}}", mesh.point_ids[static_cast<std::size_t>(nearest)]);
+}
+
+/// Sets of points as ports, small ones first; one that the deck holds, that shares points with those before, or that
+/// holds most of the mesh, is left as a comment.
+std::string port_lines(const fem::Mesh& mesh, const std::vector<bool>& held, const std::filesystem::path& file) {
   std::vector<std::pair<std::size_t, std::string>> sets;
   for (const auto& [set, points] : mesh.point_sets) sets.emplace_back(points.size(), set);
   std::ranges::sort(sets);
   std::vector<bool> taken(mesh.points.size(), false);
+  std::set<std::string> names;
   std::string text;
-  bool any = false;
   for (const auto& [size, set] : sets) {
     const std::vector<int>& points = mesh.point_sets.at(set);
     if (points.empty()) continue;
-    const bool most = 2 * size > mesh.points.size() && size > 1;
-    const bool shares = std::ranges::any_of(points, [&](int p) { return taken[static_cast<std::size_t>(p)]; });
-    text += fmt::format("      {}{}: {{set: {}}}{}\n", most || shares ? "# " : "", as_word(set), quoted(set),
-                        most     ? "  # most of the points"
-                        : shares ? "  # shares points with a port above"
-                                 : "");
-    if (most || shares) continue;
-    any = true;
+    const auto any_in = [&](const std::vector<bool>& marked) {
+      return std::ranges::any_of(points, [&](int p) { return marked[static_cast<std::size_t>(p)]; });
+    };
+    const char* reason = nullptr;
+    if (any_in(held))
+      reason = "held by the deck: take that out to join it here";
+    else if (2 * size > mesh.points.size() && size > 1)
+      reason = "most of the points";
+    else if (any_in(taken))
+      reason = "shares points with a port above";
+    std::string name = as_word(set);
+    while (!reason && !names.insert(name).second) name += "_";  // words that were different names
+    text += fmt::format("      {}{}: {{set: {}}}{}{}\n", reason ? "# " : "", quoted(name, file), quoted(set, file),
+                        reason ? "  # " : "", reason ? reason : "");
+    if (reason) continue;
     for (const int p : points) taken[static_cast<std::size_t>(p)] = true;
   }
-  return any ? text : text + "      root: {nearest: [0, 0, 0]}\n";
+  if (!names.empty()) return text;
+  const bool any_held = std::ranges::find(held, true) != held.end();
+  return text + fmt::format("      root: {}\n", any_held ? free_point(mesh, held) : "{nearest: [0, 0, 0]}");
 }
 
 /// What a deck brings along, and what it holds: comments.
-std::string deck_lines(const fem::Model& model) {
+std::string deck_lines(const fem::Model& model, const std::filesystem::path& file) {
   std::string text = "    # sections, materials and masses are the deck's own: `tenon info` lists them\n";
   if (!model.supports.empty())
     text += fmt::format("    # the deck holds {} dofs to the inertial frame (SPC, *BOUNDARY)\n", model.supports.size());
@@ -95,18 +144,22 @@ std::string deck_lines(const fem::Model& model) {
   for (const fem::Loss& loss : model.losses)
     if (loss.changes_physics) {
       text += fmt::format("    # read past, and it carries stiffness or mass: {} × {}\n", loss.count, loss.name);
-      names.push_back(quoted(loss.name));
+      names.push_back(quoted(loss.name, file));
     }
   if (!names.empty()) text += fmt::format("    # allow: [{}]  # to go on without them\n", fmt::join(names, ", "));
   return text;
 }
 
 /// What only the user knows stands in capitals; `tenon check` points at each until it is filled in.
-std::string scene_for(const fem::Mesh& mesh, const std::string& contents, const std::filesystem::path& file) {
+std::string scene_for(const fem::Mesh& mesh, const std::vector<bool>& held, const std::string& contents,
+                      const std::filesystem::path& file, const std::filesystem::path& scene) {
   Eigen::AlignedBox3d box;
   for (const fem::Vec3& point : mesh.points) box.extend(point);
   const fem::Vec3 size = box.isEmpty() ? fem::Vec3(0.0, 0.0, 0.0) : fem::Vec3(box.sizes());
   const std::string body = as_word(file.stem().string());
+  const std::filesystem::path from_scene =
+      scene.empty() ? file.filename()
+                    : std::filesystem::proximate(file, std::filesystem::absolute(scene).parent_path());
   return fmt::format(
       "# A scene for {0}: {1} points, {2:g} x {3:g} x {4:g} in its unit of length.\n"
       "# Words in CAPITALS are for you to replace; `tenon check` points at those that are left.\n"
@@ -125,21 +178,21 @@ std::string scene_for(const fem::Mesh& mesh, const std::string& contents, const 
       "inputs: {{}}                      # e.g. push: {{at: {5}.root, force: z}}\n"
       "outputs: {{}}                     # e.g. tip: {{at: {5}.root, acceleration: [x, y, z]}}\n"
       "requires: {{band: [0, BAND Hz], tolerance: 1e-3}}\n",
-      file.filename().string(), mesh.points.size(), size.x(), size.y(), size.z(), body, contents, port_lines(mesh),
-      Json(file.filename().string()).dump());
+      file.filename().string(), mesh.points.size(), size.x(), size.y(), size.z(), body, contents,
+      port_lines(mesh, held, file), quoted(from_scene.generic_string(), file));
 }
 
-std::string scene_of(const std::filesystem::path& file, InputKind kind) {
+std::string scene_of(const std::filesystem::path& file, InputKind kind, const std::filesystem::path& scene) {
   if (kind == InputKind::deck) {
     const fem::Deck deck = fem::read_deck(file, true);
-    return scene_for(deck.mesh, deck_lines(deck.model), file);
+    return scene_for(deck.mesh, held_points(deck.mesh, deck.model), deck_lines(deck.model, file), file, scene);
   }
   const fem::Mesh mesh = fem::read_mesh(file);
-  return scene_for(mesh,
+  return scene_for(mesh, std::vector<bool>(mesh.points.size(), false),
                    "    material: aluminium         # or steel, titanium, {E: ..., nu: ..., rho: ...}\n"
                    "    sections:                   # one for each set of cells\n" +
                        section_lines(mesh, file),
-                   file);
+                   file, scene);
 }
 
 }  // namespace
@@ -150,7 +203,7 @@ int run(const InitOptions& options) {
     throw InputError({options.mesh.string()}, "this is a scene already", "Name a mesh or a deck");
   if (!options.output.empty() && std::filesystem::exists(options.output))
     throw InputError({options.output.string()}, "exists already", "Name another file, or remove this one first");
-  const std::string text = scene_of(options.mesh, kind);
+  const std::string text = scene_of(options.mesh, kind, options.output);
   if (options.output.empty()) {
     fmt::print("{}", text);
     return done;

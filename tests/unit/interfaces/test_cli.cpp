@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
+#include <iterator>
 #include <numbers>
 
 #include "tests/unit/interfaces/program.hpp"
@@ -239,6 +241,53 @@ TEST_F(Cli, InitWritesScenesForEveryFormat) {
   const Ended solid = tenon("init " + (folder / "block.vtk").string());
   EXPECT_EQ(solid.status, 2);
   EXPECT_THAT(solid.err, HasSubstr("by the K and M of the program that owns it"));
+}
+
+/// What a deck holds takes no joint: sets of held nodes stay comments, and the port falls to a free node of the deck.
+TEST_F(Cli, InitLeavesHeldNodesToTheDeck) {
+  const std::string plate =
+      "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 1, 1, 0\n4, 0, 1, 0\n5, 2, 0, 0\n6, 2, 1, 0\n*ELEMENT, TYPE=S4, ELSET=SKIN\n"
+      "1, 1, 2, 3, 4\n2, 2, 5, 6, 3\n*NSET, NSET=ROOT\n1, 4\n*MATERIAL, NAME=M\n*ELASTIC\n2e11, 0.3\n*DENSITY\n7800\n"
+      "*SHELL SECTION, ELSET=SKIN, MATERIAL=M\n0.01\n*BOUNDARY\nROOT, 1, 6\n";
+  const auto scene = [&](const std::string& name, const std::string& deck) {
+    std::string text = tenon("init " + folder_.write(name, deck).string()).out;
+    for (const auto& [word, value] : {std::pair("UNITS ", "SI "), {"BAND", "20"}})
+      for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word))
+        text.replace(at, std::string(word).size(), value);
+    const Ended checked = tenon("check " + folder_.write(name + ".yaml", text).string());
+    EXPECT_EQ(checked.status, 0) << checked.err << checked.out << text;
+    return text;
+  };
+  const std::string held = scene("held.inp", plate);
+  EXPECT_THAT(held, HasSubstr("      # ROOT: {set: ROOT}  # held by the deck"));
+  EXPECT_THAT(held, HasSubstr("      root: {node: 2}\n"));  // 1 m from the origin; 1 and 4 are held
+  const std::string named =
+      scene("named.inp", plate + "*NSET, NSET=\"no. 1\"\n2\n*NSET, NSET=no..1\n3\n*NSET, NSET=NULL\n5\n");
+  EXPECT_THAT(named, HasSubstr("      no__1: {set: \"no. 1\"}\n"));
+  EXPECT_THAT(named, HasSubstr("      no__1_: {set: \"no..1\"}\n"));
+  EXPECT_THAT(named, HasSubstr("      \"NULL\": {set: \"NULL\"}\n"));
+  EXPECT_THAT(named, testing::Not(HasSubstr("node:")));
+  folder_.write("accents.inp", plate + "*NSET, NSET=Fl\xFCgel\n2\n");
+  const Ended accents = tenon("init " + (folder_.path() / "accents.inp").string());
+  EXPECT_EQ(accents.status, 2);
+  EXPECT_THAT(accents.err, HasSubstr("is no UTF-8 text"));
+}
+
+/// A scene beside the mesh's folder names the mesh from where it stands.
+TEST_F(Cli, InitNamesTheMeshFromTheScenesFolder) {
+  fs::create_directories(folder_.path() / "meshes");
+  fs::create_directories(folder_.path() / "scenes");
+  folder_.write("meshes/one.bdf",
+                "GRID,1\nGRID,2,,1.\nGRID,3,,1.,1.\nMAT1,1,2.+11,,.3,7800.\nPSHELL,7,1,.01,1,,1\n"
+                "CTRIA3,5,7,1,2,3\n");
+  const fs::path scene = folder_.path() / "scenes" / "one.yaml";
+  ASSERT_EQ(tenon("init " + (folder_.path() / "meshes" / "one.bdf").string() + " -o " + scene.string()).status, 0);
+  std::ifstream stream(scene);
+  std::string text(std::istreambuf_iterator<char>(stream), {});
+  EXPECT_THAT(text, HasSubstr("fe: \"../meshes/one.bdf\"\n"));
+  text.replace(text.find("UNITS "), 6, "SI    ").replace(text.find("BAND"), 4, "20  ");
+  const Ended checked = tenon("check " + folder_.write("scenes/filled.yaml", text).string());
+  EXPECT_EQ(checked.status, 0) << checked.err << checked.out << text;
 }
 
 TEST_F(Cli, BeamPrintsThePapersTablesAndOnesOwnBeam) {
