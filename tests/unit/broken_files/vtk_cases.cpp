@@ -1,3 +1,9 @@
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <initializer_list>
+
 #include "fem/formats/read_vtk.hpp"
 #include "tests/unit/broken_files/broken.hpp"
 
@@ -137,6 +143,61 @@ void add(Family& family, const std::string& text, const std::string& format, con
   }
 }
 
+/// Big-endian bytes, as binary legacy files have them.
+template <class T>
+std::string big(std::initializer_list<T> values) {
+  std::string out;
+  for (const T value : values) {
+    std::string raw(sizeof value, '\0');
+    std::memcpy(raw.data(), &value, sizeof value);
+    if constexpr (std::endian::native == std::endian::little) std::ranges::reverse(raw);
+    out += raw;
+  }
+  return out;
+}
+
+const std::string binary_head = "# vtk DataFile Version 4.2\ntwo lines\nBINARY\nDATASET UNSTRUCTURED_GRID\n";
+
+/// The two lines, without data: whole only to its last byte.
+std::string binary_text(const std::string& points, const std::string& cells, const std::string& kinds) {
+  return binary_head + "POINTS 3 double\n" + points + "\nCELLS 2 6\n" + cells + "\nCELL_TYPES 2\n" + kinds;
+}
+
+void add_binary(std::vector<Case>& cases) {
+  const std::string x = big<double>({0, 0, 0, 1, 0, 0, 2, 0, 0}), lines = big<std::int32_t>({2, 0, 1, 2, 1, 2}),
+                    kinds = big<std::int32_t>({3, 3}), sound = binary_text(x, lines, kinds);
+  const auto at = [&](const char* name, const std::string& bytes, const char* says, long line) {
+    Case& added = cases.emplace_back();
+    added.name = std::string("binary: ") + name;
+    added.bytes = bytes;
+    added.says = {says};
+    if (line > 0) added.place = std::pair{line, 1L};
+  };
+  cases.push_back({.name = "binary", .bytes = sound, .reads = true});
+  cases.push_back({.name = "binary with a line end behind it", .bytes = sound + "\n", .reads = true});
+  for (std::size_t size = 1; size < sound.size(); size += 3)
+    cases.push_back({"binary: cut after byte " + std::to_string(size), sound.substr(0, size), {"bad.vtk"}});
+  // lines are counted by their ends, and none of these numbers holds the byte of one
+  at("nan", binary_text(replaced(x, big<double>({1}), "\x7f\xf8" + std::string(6, '\0')), lines, kinds),
+     "point 1 is not finite", 5);
+  at("reals of half the width", replaced(sound, "3 double", "3 float"), "expected a section of an unstructured grid",
+     0);
+  at("a point too many", replaced(sound, "POINTS 3", "POINTS 4"), "expected a section of an unstructured grid", 0);
+  at("points beyond the file", replaced(sound, "POINTS 3", "POINTS 200"), "needs 600 values of 8 bytes", 5);
+  at("a cell of a point that is not there", binary_text(x, big<std::int32_t>({2, 0, 3, 2, 1, 2}), kinds),
+     "cell 0 names point 3 of 3", 7);
+  at("a negative point", binary_text(x, big<std::int32_t>({2, 0, -1, 2, 1, 2}), kinds), "cell 0 names point -1 of 3",
+     7);
+  at("a cell of -1 nodes", binary_text(x, big<std::int32_t>({-1, 0, 1, 2, 1, 2}), kinds), "cell 0 of 2 does not fit",
+     7);
+  at("a cell of 2147483647 nodes", binary_text(x, big<std::int32_t>({2147483647, 0, 1, 2, 1, 2}), kinds),
+     "cell 0 of 2 does not fit", 7);
+  at("the other byte order of the cells", binary_text(x, big<std::int32_t>({1 << 25, 0, 1 << 24, 2, 1, 2}), kinds),
+     "cell 0 of 2 does not fit", 7);
+  at("an unknown type", binary_text(x, lines, big<std::int32_t>({3, 99})), "cell 1 has VTK's type 99", 7);
+  at("text", replaced(old_text, "ASCII", "BINARY"), "expected a section of an unstructured grid", 0);
+}
+
 }  // namespace
 
 Family vtk_cases() {
@@ -161,6 +222,7 @@ Family vtk_cases() {
   }
   add(family, old_text, "4.2", old_ones);
   add(family, new_text, "5.1", new_ones);
+  add_binary(family.cases);
   return family;
 }
 
