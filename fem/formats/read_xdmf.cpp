@@ -63,7 +63,7 @@ struct CellList {
 class XdmfReader {
  public:
   XdmfReader(std::string_view bytes, const std::string& source, std::filesystem::path folder)
-      : bytes_(bytes), folder_(std::move(folder)) {
+      : bytes_(bytes), reading_{std::move(folder), bytes.size(), 0} {
     mesh_.source = source;
   }
   Mesh read();
@@ -74,14 +74,18 @@ class XdmfReader {
                          const std::string& cure = "Write it again") const {
     fail(node.offset_debug(), what, cure);
   }
-  void read_grids(pugi::xml_node parent);
+  void read_grids(pugi::xml_node parent, int depth);
+  void read_steps(pugi::xml_node collection);
   void read_grid(pugi::xml_node grid);
   void read_points(pugi::xml_node geometry);
-  CellList cells(pugi::xml_node topology) const;
+  CellList cells(pugi::xml_node topology);
+  void check_count(pugi::xml_node topology, std::size_t n_cells) const;
   CellList mixed_cells(pugi::xml_node topology, const Values& numbers) const;
   void read_attribute(pugi::xml_node attribute);
   void read_set(pugi::xml_node set);
-  Values item(pugi::xml_node parent) const;
+  Values item(pugi::xml_node parent, bool whole = false);
+  pugi::xml_node only(pugi::xml_node parent, const char* name) const;
+  std::string named(pugi::xml_node node) const;
   template <class Step>
   void at(pugi::xml_node node, Step&& step) const;
   std::string attribute(pugi::xml_node node, const char* name, const char* older, const char* otherwise) const {
@@ -90,7 +94,7 @@ class XdmfReader {
   void lose(const std::string& name, const std::string& note);
 
   std::string_view bytes_;
-  std::filesystem::path folder_;
+  xdmf::Reading reading_;
   Mesh mesh_;
   vtk::Grid grid_{mesh_};
   std::size_t grids_ = 0, points_ = 0, cells_ = 0;  ///< grids read; points and cells of the last
@@ -122,11 +126,26 @@ void XdmfReader::lose(const std::string& name, const std::string& note) {
     ++known->count;
 }
 
-Values XdmfReader::item(pugi::xml_node parent) const {
-  const pugi::xml_node node = parent.child("DataItem");
+/// The child of that name, if any; a second one would be read past.
+pugi::xml_node XdmfReader::only(pugi::xml_node parent, const char* name) const {
+  const pugi::xml_node child = parent.child(name);
+  if (const pugi::xml_node second = child.next_sibling(name))
+    fail(second, fmt::format("found a second {} in {}, expected one", name, parent.name()),
+         "Write each in an element of its own");
+  return child;
+}
+
+std::string XdmfReader::named(pugi::xml_node node) const {
+  const std::string name = node.attribute("Name").value();
+  if (name.empty()) fail(node, fmt::format("{} has no Name", node.name()), "Give it one");
+  return name;
+}
+
+Values XdmfReader::item(pugi::xml_node parent, bool whole) {
+  const pugi::xml_node node = only(parent, "DataItem");
   if (!node) fail(parent, fmt::format("{} has no DataItem", parent.name()));
   try {
-    return xdmf::values_of(node, folder_);
+    return xdmf::values_of(node, reading_, whole);
   } catch (const vtk::ArrayFault& fault) {
     fail(node, "the DataItem " + fault.what, fault.cure);
   }
@@ -139,6 +158,7 @@ void XdmfReader::read_points(pugi::xml_node geometry) {
          "Write all coordinates of a point together");
   Values x = item(geometry);
   if (same_name(type, "XY")) {
+    if (x.size() % 2 != 0) fail(geometry, fmt::format("found {} coordinates, expected two of each point", x.size()));
     Values flat;
     flat.real = true;
     for (std::size_t i = 0; i + 1 < x.size(); i += 2) flat.reals.insert(flat.reals.end(), {x.at(i), x.at(i + 1), 0.0});
@@ -157,11 +177,11 @@ CellList XdmfReader::mixed_cells(pugi::xml_node topology, const Values& numbers)
     if (kind == topologies.end())
       fail(topology, fmt::format("cell {} is of XDMF's type {}, which is not read", list.ends.size(), number),
            "Convert it to lines, triangles, quadrilaterals or solids of first or second order");
-    if (number <= 2) {
-      if (i == n || numbers.whole[i] != static_cast<std::int64_t>(kind->nodes))
+    if (number <= 2 && i < n) {
+      if (numbers.whole[i] != static_cast<std::int64_t>(kind->nodes))
         fail(topology,
-             fmt::format("cell {} is a {} of {} nodes, expected {}", list.ends.size(), kind->names[0],
-                         i == n ? 0 : numbers.whole[i], kind->nodes),
+             fmt::format("cell {} is a {} of {} nodes, expected {}", list.ends.size(), kind->names[0], numbers.whole[i],
+                         kind->nodes),
              "Write each point and each line as a cell of its own");
       ++i;
     }
@@ -173,9 +193,18 @@ CellList XdmfReader::mixed_cells(pugi::xml_node topology, const Values& numbers)
   return list;
 }
 
-CellList XdmfReader::cells(pugi::xml_node topology) const {
+void XdmfReader::check_count(pugi::xml_node topology, std::size_t n_cells) const {
+  const char* const name = topology.attribute("NumberOfElements") ? "NumberOfElements" : "Dimensions";
+  const pugi::xml_attribute count = topology.attribute(name);
+  if (count && count.value() != std::to_string(n_cells))
+    fail(topology, fmt::format("found {} cells, {} says {}", n_cells, name, count.value()));
+}
+
+CellList XdmfReader::cells(pugi::xml_node topology) {
+  if (topology.attribute("Order"))
+    fail(topology, "gives the nodes of a cell an Order of its own", "Write them in XDMF's order");
   const std::string type = attribute(topology, "TopologyType", "Type", "");
-  Values numbers = item(topology);
+  Values numbers = item(topology, true);
   if (numbers.real && numbers.size() > 0) fail(topology, "found cells made of reals, expected whole numbers");
   CellList list;
   if (same_name(type, "Mixed")) {
@@ -187,26 +216,26 @@ CellList XdmfReader::cells(pugi::xml_node topology) const {
       fail(topology, fmt::format("found the topology '{}', which is not read", type),
            "Convert it to lines, triangles, quadrilaterals or solids of first or second order");
     const std::string width = topology.attribute("NodesPerElement").as_string("");
-    if (kind->number <= 2 && !width.empty() && width != std::to_string(kind->nodes))
+    if (!width.empty() && width != std::to_string(kind->nodes))
       fail(topology, fmt::format("found {}s of {} nodes, expected {}", type, width, kind->nodes),
-           "Write each point and each line as a cell of its own");
+           kind->number <= 2 ? "Write each point and each line as a cell of its own" : "Write it again");
     if (numbers.size() % kind->nodes != 0)
       fail(topology,
            fmt::format("found {} numbers of nodes, expected {} for each {}", numbers.size(), kind->nodes, type));
     for (std::size_t i = 0; i < numbers.size(); i += kind->nodes) list.add(*kind, &numbers.whole[i]);
   }
-  if (const long base = topology.attribute("BaseOffset").as_llong(0); base != 0)
-    for (std::int64_t& node : list.nodes.whole) node -= base;
-  const pugi::xml_attribute count = topology.attribute("NumberOfElements");
-  if (count && count.as_ullong(0) != list.ends.size() &&
-      std::string_view(count.value()).find(' ') == std::string_view::npos)
-    fail(topology, fmt::format("found {} cells, NumberOfElements says {}", list.ends.size(), count.value()));
+  if (const pugi::xml_attribute base = topology.attribute("BaseOffset")) {
+    const std::string first = base.value();
+    if (first != "0" && first != "1") fail(topology, fmt::format("found BaseOffset=\"{}\", expected 0 or 1", first));
+    if (first == "1")
+      for (std::int64_t& node : list.nodes.whole) node = std::max<std::int64_t>(node, 0) - 1;
+  }
+  check_count(topology, list.ends.size());
   return list;
 }
 
 void XdmfReader::read_attribute(pugi::xml_node attribute) {
-  const std::string name = attribute.attribute("Name").value(),
-                    centre = attribute.attribute("Center").as_string("Node");
+  const std::string name = named(attribute), centre = attribute.attribute("Center").as_string("Node");
   const bool of_cells = same_name(centre, "Cell");
   if (!of_cells && !same_name(centre, "Node")) {
     lose(fmt::format("Attribute '{}'", name), fmt::format("numbers of each {}", centre));
@@ -217,17 +246,17 @@ void XdmfReader::read_attribute(pugi::xml_node attribute) {
 }
 
 void XdmfReader::read_set(pugi::xml_node set) {
-  const std::string name = set.attribute("Name").value(), type = attribute(set, "SetType", "Type", "Node");
+  const std::string name = named(set), type = attribute(set, "SetType", "Type", "Node");
   if (!same_name(type, "Node") && !same_name(type, "Cell")) {
     lose(fmt::format("Set '{}'", name), fmt::format("of kind {}", type));
     return;
   }
-  const Values members = item(set);
+  const Values members = item(set, true);
   at(set, [&] { grid_.add_set(same_name(type, "Cell"), name, members); });
 }
 
 void XdmfReader::read_grid(pugi::xml_node grid) {
-  const pugi::xml_node geometry = grid.child("Geometry"), topology = grid.child("Topology");
+  const pugi::xml_node geometry = only(grid, "Geometry"), topology = only(grid, "Topology");
   if (!geometry || !topology)
     fail(grid,
          fmt::format("the grid '{}' has no {}", grid.attribute("Name").value(), geometry ? "Topology" : "Geometry"),
@@ -248,7 +277,26 @@ void XdmfReader::read_grid(pugi::xml_node grid) {
   }
 }
 
-void XdmfReader::read_grids(pugi::xml_node parent) {
+/// The first step of a series in time. Steps that refer to a mesh elsewhere in the file are no meshes.
+void XdmfReader::read_steps(pugi::xml_node collection) {
+  long past = 0;
+  bool found = false;
+  for (const pugi::xml_node step : collection.children("Grid")) {
+    if (found || (!step.child("Topology") && !step.child("Geometry"))) {
+      ++past;
+      continue;
+    }
+    read_grid(step);
+    found = true;
+  }
+  if (past > 0)
+    mesh_.losses.push_back(
+        {"Grid", past, found ? "later times of a temporal collection" : "times of a mesh elsewhere"});
+}
+
+void XdmfReader::read_grids(pugi::xml_node parent, int depth) {
+  constexpr int deepest = 16;
+  if (depth > deepest) fail(parent, "found grids within grids, more than 16 deep", "Write them side by side");
   for (const pugi::xml_node child : parent.children()) {
     const std::string_view name = child.name();
     if (name == "xi:include")
@@ -257,22 +305,17 @@ void XdmfReader::read_grids(pugi::xml_node parent) {
     if (name != "Grid") continue;
     const std::string type = attribute(child, "GridType", "Type", "Uniform");
     const std::string collection = child.attribute("CollectionType").as_string("Spatial");
-    if (same_name(type, "Uniform")) {
+    if (same_name(type, "Uniform"))
       read_grid(child);
-    } else if (same_name(type, "Tree") || same_name(type, "Collection")) {
-      if (!same_name(type, "Collection") || !same_name(collection, "Temporal")) {
-        read_grids(child);
-        continue;
-      }
-      const auto steps = child.children("Grid");
-      if (steps.begin() == steps.end()) continue;
-      read_grid(*steps.begin());
-      if (const auto later = std::distance(steps.begin(), steps.end()) - 1; later > 0)
-        mesh_.losses.push_back({"Grid", static_cast<long>(later), "later times of a temporal collection"});
-    } else {
-      fail(child, fmt::format("found a grid of type {}, expected Uniform, Collection or Tree", type),
+    else if (same_name(type, "Collection") && same_name(collection, "Temporal"))
+      read_steps(child);
+    else if (same_name(type, "Tree") || (same_name(type, "Collection") && same_name(collection, "Spatial")))
+      read_grids(child, depth + 1);
+    else
+      fail(child,
+           fmt::format("found a grid of type {}, expected Uniform, Tree or a Collection, Spatial or Temporal",
+                       same_name(type, "Collection") ? fmt::format("{} {}", type, collection) : type),
            "Write the mesh as one uniform grid");
-    }
   }
 }
 
@@ -282,9 +325,13 @@ Mesh XdmfReader::read() {
   if (!result) fail(result.offset, fmt::format("no well-formed XML: {}", result.description()), "Write it again");
   const pugi::xml_node file = document.child("Xdmf"), domain = file.child("Domain");
   if (!file) throw InputError({mesh_.source}, "has no element Xdmf", "Give an .xdmf file");
-  mesh_.format = fmt::format("xdmf {}", file.attribute("Version").as_string("3.0"));
+  const std::string version = file.attribute("Version").as_string("3.0");
+  if (!version.starts_with('2') && !version.starts_with('3'))
+    fail(file, fmt::format("found version '{}', expected 2 or 3", version), "Save it as version 3");
+  mesh_.format = fmt::format("xdmf {}", version);
   if (!domain) fail(file, "has no Domain");
-  read_grids(domain);
+  only(file, "Domain");
+  read_grids(domain, 0);
   if (grids_ > 1)
     mesh_.losses.push_back(
         {"Grid, side by side", static_cast<long>(grids_), "nothing joins the grids: shared points stay apart"});

@@ -169,6 +169,12 @@ void Grid::finish() {
         data[static_cast<std::size_t>(cells_[c].first)].row(cells_[c].second) = all.row(static_cast<Eigen::Index>(c));
       if (whole_.contains(name)) make_sets(name, all);
     }
+  const auto in_order = [](std::vector<int>& set) {  // sets of one name join, a member may be named twice
+    std::ranges::sort(set);
+    set.erase(std::ranges::unique(set).begin(), set.end());
+  };
+  for (auto& [name, set] : mesh_.point_sets) in_order(set);
+  for (auto& [name, blocks] : mesh_.cell_sets) std::ranges::for_each(blocks, in_order);
 }
 
 }  // namespace tenon::fem::vtk
