@@ -34,6 +34,7 @@ Family scene_cases();
 Family body_cases();
 Family vtk_cases();
 Family vtu_cases();
+Family xdmf_cases();
 Family market_cases();
 Family label_cases();
 Family calculix_cases();
