@@ -164,15 +164,15 @@ Mat12 coupling_stiffness(const ShellTheory& theory, const Points& points, const 
 
 /// With u_corner + E (w θx θy) in place of the corners' (u v), `surface_terms`: the membrane and its coupling to
 /// bending are carried to the plate and to what couples both. False for a flat quad.
-bool add_surface_terms(const Quad4& quad, std::span<const Vec3> directors, const FlatQuad& flat, bool coupled,
-                       const Mat12& K_membrane, Mat12& K_plate, Mat12& K_coupling) {
+bool add_surface_terms(const Quad4& quad, std::span<const Vec3> directors, const FlatQuad& flat,
+                       const ShellTheory& theory, const Mat12& K_membrane, Mat12& K_plate, Mat12& K_coupling) {
   SurfaceTerms E;
-  if (!surface_terms(quad, directors, flat, E)) return false;
-  if (!coupled) K_coupling.setZero();
+  if (!surface_terms(quad, directors, flat, theory.thickness, E)) return false;
+  if (!theory.coupled) K_coupling.setZero();
   Mat12 EtC = Mat12::Zero();  // over (w θx θy): Eᵀ (C + K E)
   Eigen::Matrix<double, 12, 8> K;
   for (int i = 0; i < 4; ++i) K.middleCols<2>(2 * i) = K_membrane.middleCols<2>(3 * i);
-  if (coupled) {
+  if (theory.coupled) {
     for (int i = 0; i < 4; ++i)
       EtC.noalias() += E.middleRows<2>(2 * i).transpose().lazyProduct(K_coupling.middleRows<2>(3 * i));
     K_plate += EtC + EtC.transpose();
@@ -308,7 +308,7 @@ void quad4_matrices(const Quad4& quad, const ShellSection& section, const Materi
 
   std::array<Vec3, 4> arms = flat.arms;
   for (Vec3& arm : arms) arm.z() += quad.offset;
-  const bool curved = add_surface_terms(quad, directors, flat, theory.coupled, membrane.K, K_plate, K_coupling);
+  const bool curved = add_surface_terms(quad, directors, flat, theory, membrane.K, K_plate, K_coupling);
   shell_to_basic_frame<4>(membrane.K, K_plate, flat.R, arms, out.K, theory.coupled || curved ? &K_coupling : nullptr);
   Mat12 M_membrane = Mat12::Zero();
   for (int i = 0; i < 4; ++i)
@@ -338,7 +338,7 @@ void quad4_geometric_stiffness(const Quad4& quad, const ShellSection& section, c
     bending.segment<3>(3 * i) << corner.z(), turn.x(), turn.y();
     edge[k] = plate_edge(theory, flat.x[j] - flat.x[i], flat.y[j] - flat.y[i]);
   }
-  if (SurfaceTerms E; surface_terms(quad, directors, flat, E)) in_plane += E * bending;
+  if (SurfaceTerms E; surface_terms(quad, directors, flat, theory.thickness, E)) in_plane += E * bending;
   Vec3 strain = Vec3::Zero(), curvature = Vec3::Zero();  // the element's means, B₀ u and ∮ β n ds / area
   for (int i = 0; i < 4; ++i) {
     const double b = gauss.centre.N_x[i], c = gauss.centre.N_y[i], u_i = in_plane[2 * i], v_i = in_plane[2 * i + 1];

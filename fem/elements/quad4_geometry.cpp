@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/LU>
+#include <cmath>
 
 #include "fem/error.hpp"
 
@@ -29,6 +30,22 @@
 // Neither rigid motions nor flat quads change. Without (3) thin shells lock on skew meshes: chords side by side differ
 // in length, and no displacement in the surface undoes the strain all of them show.
 //
+// Strain over a curved surface is not bilinear either. Compatibility says that bending κ along a, in a surface with
+// curvature κ₀ along n, comes with ε_aa,nn = −κ₀ κ: e.g. a cylinder's ε_xx is a parabola around it, where u, v follow
+// the hoop. What edges and centre say of its mean over the element is off by
+//
+//   Δe_rr = ⅓ G a_r² n_s²,  Δe_ss = ⅓ G a_s² n_r²,  Δe_rs = ⅙ G (a_r² + a_s²) n_r n_s,   a_r = x_r·a, … (4)
+//
+// G = κ₁ κ_22 + κ₂ κ_11 in the axes of the surface's curvatures κ₁, κ₂, no strain in inextensional bending. Of two
+// curvatures n is the greater one's axis in the share δ = |κ₁² − κ₂²| / (κ₁² + κ₂²), any axis in the rest:
+//
+//   mean of a_r² n_s² = ⅛ (3 x_r² x_s² − 2 (x_r·x_s)²),  mean of (a_r² + a_s²) n_r n_s = ⅛ (x_r·x_s)(x_r² + x_s²)
+//
+// Compatibility leaves open what part of G is parabolas of ε_nn and γ; (4) is their absence, as in shells that carry
+// along a. It leaves a fifth of the error of the Scordelis-Lo roof. What is left of G in inextensional bending, h²
+// of its parts, would lock very thin shells: (4) is taken 1/(1 + m̂² A/12 t²) times, m̂ the largest tilt of a node's
+// normal against their mean, so that its energy stays of the order of bending's.
+//
 // The flat membrane hangs on arms a_i at the nodes, u_corner = u + θ × a e_z, and has the chords Δx·Δu_corner in its
 // plane. E adds what (3) says to them.
 namespace tenon::fem {
@@ -36,12 +53,15 @@ namespace {
 
 using Chord = Eigen::Matrix<double, 1, 12>;
 
+using Vec2 = Eigen::Vector2d;
+using Mat2 = Eigen::Matrix2d;
+using Tilts = std::array<Vec2, 4>;
+
 /// Tilts of the nodes' normals against the plane's, zero without directors; false if they are none.
-bool normal_tilts(const Quad4& quad, std::span<const Vec3> directors, const Mat3& R,
-                  std::array<Eigen::Vector2d, 4>& m) {
-  m.fill(Eigen::Vector2d::Zero());
+bool normal_tilts(const Quad4& quad, std::span<const Vec3> directors, const Mat3& R, Tilts& m) {
+  m.fill(Vec2::Zero());
   if (directors.empty()) return false;
-  std::array<Eigen::Vector2d, 4> tilts;
+  Tilts tilts;
   double largest = 0.0;
   for (std::size_t i = 0; i < 4; ++i) {
     const Vec3 n = R.transpose() * directors[static_cast<std::size_t>(quad.nodes[i])];
@@ -55,7 +75,7 @@ bool normal_tilts(const Quad4& quad, std::span<const Vec3> directors, const Mat3
 }
 
 /// What (3) adds to the chord of corners i and j, over (w θx θy).
-Chord chord_terms(const FlatQuad& f, const std::array<Eigen::Vector2d, 4>& m, int i, int j) {
+Chord chord_terms(const FlatQuad& f, const Tilts& m, int i, int j) {
   const auto ki = static_cast<std::size_t>(i), kj = static_cast<std::size_t>(j);
   const double dx = f.x[j] - f.x[i], dy = f.y[j] - f.y[i];
   const double bend = (dx * (m[kj].x() - m[ki].x()) + dy * (m[kj].y() - m[ki].y())) / 12.0;
@@ -64,6 +84,60 @@ Chord chord_terms(const FlatQuad& f, const std::array<Eigen::Vector2d, 4>& m, in
   g.segment<3>(3 * j) << a_i - a_j, (a_j - bend) * dy, (bend - a_j) * dx;
   g.segment<3>(3 * i) << a_j - a_i, (bend - a_i) * dy, (a_i - bend) * dx;
   return g;
+}
+
+/// A tensor's covariant components: rr, ss, rs.
+template <typename T>
+struct Covariant {
+  T rr, ss, rs;
+};
+
+/// ¼ Δm·Δx of corners i and j.
+double normal_turn(const FlatQuad& f, const Tilts& m, int i, int j) {
+  return 0.25 *
+         Vec2(f.x[j] - f.x[i], f.y[j] - f.y[i]).dot(m[static_cast<std::size_t>(j)] - m[static_cast<std::size_t>(i)]);
+}
+
+/// ¼ ((θ_j − θ_i) × n)·Δx of corners i and j, over (w θx θy).
+Chord bending_turn(const FlatQuad& f, int i, int j) {
+  const double dx = 0.25 * (f.x[j] - f.x[i]), dy = 0.25 * (f.y[j] - f.y[i]);
+  Chord k = Chord::Zero();
+  k.segment<2>(3 * j + 1) << -dy, dx;
+  k.segment<2>(3 * i + 1) << dy, -dx;
+  return k;
+}
+
+/// (4). `J`: columns x_r, x_s
+Covariant<Chord> parabolas(const FlatQuad& f, const Tilts& m, const Mat2& J, const Mat2& J_inv, double thickness) {
+  const Covariant<double> z{.rr = 0.5 * (normal_turn(f, m, 3, 2) + normal_turn(f, m, 0, 1)),
+                            .ss = 0.5 * (normal_turn(f, m, 1, 2) + normal_turn(f, m, 0, 3)),
+                            .rs = f.arms[0].z()};
+  const Covariant<Chord> k{.rr = 0.5 * (bending_turn(f, 3, 2) + bending_turn(f, 0, 1)),
+                           .ss = 0.5 * (bending_turn(f, 1, 2) + bending_turn(f, 0, 3)),
+                           .rs = 0.25 * (bending_turn(f, 0, 2) - bending_turn(f, 1, 3))};
+  const Mat2 Z = J_inv.transpose() * (Mat2() << z.rr, z.rs, z.rs, z.ss).finished() * J_inv;
+  const double angle = 0.5 * std::atan2(2.0 * Z(0, 1), Z(0, 0) - Z(1, 1));
+  Vec2 n(std::cos(angle), std::sin(angle)), a(-n.y(), n.x());
+  double k_n = n.dot(Z * n), k_a = a.dot(Z * a);
+  if (std::abs(k_a) > std::abs(k_n)) {
+    std::swap(n, a);
+    std::swap(k_n, k_a);
+  }
+  const double along = k_n == 0.0 ? 0.0 : (k_n * k_n - k_a * k_a) / (k_n * k_n + k_a * k_a),
+               any = 0.125 * (1.0 - along);
+  const Vec2 N = J.transpose() * n, A = J.transpose() * a;  // n_r, n_s; a_r, a_s
+  const double r2 = J.col(0).squaredNorm(), s2 = J.col(1).squaredNorm(), rs = J.col(0).dot(J.col(1));
+  const double round = any * (3.0 * r2 * s2 - 2.0 * rs * rs), area = J.determinant();
+
+  Vec2 mean = Vec2::Zero();
+  double spread2 = 0.0;
+  for (const Vec2& tilt : m) mean += 0.25 * tilt;
+  for (const Vec2& tilt : m) spread2 = std::max(spread2, (tilt - mean).squaredNorm());
+  const double share = 1.0 / (1.0 + spread2 * 4.0 * area / (12.0 * thickness * thickness));
+  const Chord G = share / (area * area) * (z.rr * k.ss + z.ss * k.rr - 2.0 * z.rs * k.rs);
+  return {.rr = (along * A[0] * A[0] * N[1] * N[1] + round) / 3.0 * G,
+          .ss = (along * A[1] * A[1] * N[0] * N[0] + round) / 3.0 * G,
+          .rs = (along * A.squaredNorm() * N[0] * N[1] + any * rs * (r2 + s2)) / 6.0 * G};
 }
 
 }  // namespace
@@ -100,28 +174,35 @@ FlatQuad flat_quad(const Quad4& quad, std::span<const Vec3> nodes) {
   return f;
 }
 
-bool surface_terms(const Quad4& quad, std::span<const Vec3> directors, const FlatQuad& f, SurfaceTerms& E) {
-  using Vec2 = Eigen::Vector2d;
-  using Mat2 = Eigen::Matrix2d;
+bool surface_terms(const Quad4& quad, std::span<const Vec3> directors, const FlatQuad& f, double thickness,
+                   SurfaceTerms& E) {
   using Pair = Eigen::Matrix<double, 2, 12>;
-  std::array<Vec2, 4> m;
+  Tilts m;
   const bool curved = normal_tilts(quad, directors, f.R, m);
   if (!curved && f.arms[0].z() == 0.0) return false;
 
   const Chord A = 0.25 * chord_terms(f, m, 3, 2), B = 0.25 * chord_terms(f, m, 0, 1);  // (1)
   const Chord C = 0.25 * chord_terms(f, m, 1, 2), D = 0.25 * chord_terms(f, m, 0, 3);
-  const Chord e_rs = (chord_terms(f, m, 0, 2) - chord_terms(f, m, 1, 3)) / 16.0;
+  Chord e_rs = (chord_terms(f, m, 0, 2) - chord_terms(f, m, 1, 3)) / 16.0;
   Mat2 J;  // columns x_r, x_s
   J << corner_r.dot(f.x), corner_s.dot(f.x), corner_r.dot(f.y), corner_s.dot(f.y);
-  const Mat2 J_inv = (0.25 * J).inverse(), to_plane = J_inv.transpose();
+  J *= 0.25;
+  const Mat2 J_inv = J.inverse(), to_plane = J_inv.transpose();
   const Vec2 x_d(0.25 * corner_h.dot(f.x), 0.25 * corner_h.dot(f.y)), c = J_inv * x_d;
   const Chord d = (0.5 * c[0] * ((1.0 - c[0]) * A - (1.0 + c[0]) * B) +
                    0.5 * c[1] * ((1.0 - c[1]) * C - (1.0 + c[1]) * D) - 2.0 * c[0] * c[1] * e_rs) /
                   (1.0 - c.squaredNorm());  // (2)
+  Chord e_rr = 0.5 * (A + B) - d, e_ss = 0.5 * (C + D) - d;
+  if (curved) {
+    const Covariant<Chord> mean = parabolas(f, m, J, J_inv, thickness);
+    e_rr += mean.rr;
+    e_ss += mean.ss;
+    e_rs += mean.rs;
+  }
   // corners that show these strains and do not turn: x_r·u_r = e_rr, x_s·u_r = e_rs, …, x_r·u_d + x_d·u_r = ½(A−B)
   Pair e_r, e_s, e_d;
-  e_r << 0.5 * (A + B) - d, e_rs;
-  e_s << e_rs, 0.5 * (C + D) - d;
+  e_r << e_rr, e_rs;
+  e_s << e_rs, e_ss;
   const Pair u_r = to_plane.lazyProduct(e_r), u_s = to_plane.lazyProduct(e_s);
   e_d << 0.5 * (A - B) - x_d.transpose().lazyProduct(u_r), 0.5 * (C - D) - x_d.transpose().lazyProduct(u_s);
   const Pair u_d = to_plane.lazyProduct(e_d);

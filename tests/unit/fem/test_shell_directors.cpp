@@ -225,6 +225,41 @@ TEST(ShellDirectors, InextensionalBendingLeavesNoStress) {
   }
 }
 
+// A cylinder of R = 1, y around it, bent along its axis without hoop strain or shear: w = x²/2, v = −x² φ/2, u = x φ²/2
+// have ε_x = φ²/2 alone, a parabola over the quad whose mean is α²/6 for |φ| < α and not the edges' α²/2. K_σ shows it:
+// xᵀ K_σ x = ∫ N_x over the corners' x. Errors are of the order α².
+TEST(ShellDirectors, ABentCylinderStrainsInParabolas) {
+  const double alpha = 0.03, b = 0.05, t = 0.05;
+  const ShellSection section{.name = "s", .thickness = t};
+  const Material material{"m", 1.0, 0.5, 0.0, 1.0};
+  for (const double skew : {0.0, 0.4}) {
+    std::vector<Vec3> nodes, normals;
+    Eigen::VectorXd u(24);
+    Eigen::Index row = 0;
+    for (const auto& [r, s] : {std::pair{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}}) {
+      const double x = b * (r + skew * s), phi = alpha * (s + skew * r), c = std::cos(phi), d = std::sin(phi);
+      nodes.emplace_back(x, d, c);
+      normals.emplace_back(0.0, d, c);
+      const double w = 0.5 * x * x, v = -0.5 * x * x * phi;
+      // θ = n × β: β_x = −w,x, β_φ = v − w,φ; about the normal ½(v,x − u,φ) = v,x
+      const double beta_x = -x, beta_phi = v, spin = -x * phi;
+      const Vec3 hoop(0.0, c, -d), normal(0.0, d, c);
+      u.segment<3>(row) = Vec3(0.5 * x * phi * phi, 0.0, 0.0) + v * hoop + w * normal;
+      u.segment<3>(row + 3) = beta_x * normal.cross(Vec3::UnitX()) + beta_phi * normal.cross(hoop) + spin * normal;
+      row += 6;
+    }
+    const double mean = alpha * alpha * (1.0 + skew * skew) / 6.0;  // of φ²/2 over r, s
+    ElementMatrices::Matrix K;
+    quad4_geometric_stiffness({.nodes = {0, 1, 2, 3}}, section, material, nodes, u, K, normals);
+    double N_x = 0.0;
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < 4; ++j)
+        N_x += K(6 * i, 6 * j) * nodes[static_cast<std::size_t>(i)].x() * nodes[static_cast<std::size_t>(j)].x();
+    const double area = 4.0 * b * alpha * (1.0 - skew * skew);
+    EXPECT_NEAR(N_x / (t * area * mean), 1.0, 0.01) << skew;
+  }
+}
+
 // Rigid motions stay free of stress on curved cells, and nothing else does.
 TEST(ShellDirectors, LeaveSixZeroModes) {
   for (const Model& model : {quads(1, 1, sphere), triangles(1, 1, sphere)}) {
