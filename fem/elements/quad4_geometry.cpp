@@ -42,9 +42,16 @@
 //   mean of a_r² n_s² = ⅛ (3 x_r² x_s² − 2 (x_r·x_s)²),  mean of (a_r² + a_s²) n_r n_s = ⅛ (x_r·x_s)(x_r² + x_s²)
 //
 // Compatibility leaves open what part of G is parabolas of ε_nn and γ; (4) is their absence, as in shells that carry
-// along a. It leaves a fifth of the error of the Scordelis-Lo roof. What is left of G in inextensional bending, h²
-// of its parts, would lock very thin shells: (4) is taken 1/(1 + m̂² A/12 t²) times, m̂ the largest tilt of a node's
-// normal against their mean, so that its energy stays of the order of bending's.
+// along a. It leaves a fifth of the error of the Scordelis-Lo roof.
+//
+// With (3) the rotations can undo membrane strain, which costs them bending only: where h² ≫ R t more of them than the
+// shell itself has, and its modes come out low (t/R = 1e-4, 16 skew quads a quarter of a cylinder: by half). All of
+// this is taken
+//
+//   1 / (1 + m̂² A / 12 t²)                                                                                         (5)
+//
+// times, m̂ the largest tilt of a node's normal against their mean: the whole where elements resolve √(R t), the flat
+// quad, a few per cent stiff in bending and never far off, where they do not.
 //
 // The flat membrane hangs on arms a_i at the nodes, u_corner = u + θ × a e_z, and has the chords Δx·Δu_corner in its
 // plane. E adds what (3) says to them.
@@ -108,7 +115,7 @@ Chord bending_turn(const FlatQuad& f, int i, int j) {
 }
 
 /// (4). `J`: columns x_r, x_s
-Covariant<Chord> parabolas(const FlatQuad& f, const Tilts& m, const Mat2& J, const Mat2& J_inv, double thickness) {
+Covariant<Chord> parabolas(const FlatQuad& f, const Tilts& m, const Mat2& J, const Mat2& J_inv) {
   const Covariant<double> z{.rr = 0.5 * (normal_turn(f, m, 3, 2) + normal_turn(f, m, 0, 1)),
                             .ss = 0.5 * (normal_turn(f, m, 1, 2) + normal_turn(f, m, 0, 3)),
                             .rs = f.arms[0].z()};
@@ -129,15 +136,18 @@ Covariant<Chord> parabolas(const FlatQuad& f, const Tilts& m, const Mat2& J, con
   const double r2 = J.col(0).squaredNorm(), s2 = J.col(1).squaredNorm(), rs = J.col(0).dot(J.col(1));
   const double round = any * (3.0 * r2 * s2 - 2.0 * rs * rs), area = J.determinant();
 
-  Vec2 mean = Vec2::Zero();
-  double spread2 = 0.0;
-  for (const Vec2& tilt : m) mean += 0.25 * tilt;
-  for (const Vec2& tilt : m) spread2 = std::max(spread2, (tilt - mean).squaredNorm());
-  const double share = 1.0 / (1.0 + spread2 * 4.0 * area / (12.0 * thickness * thickness));
-  const Chord G = share / (area * area) * (z.rr * k.ss + z.ss * k.rr - 2.0 * z.rs * k.rs);
+  const Chord G = (1.0 / (area * area)) * (z.rr * k.ss + z.ss * k.rr - 2.0 * z.rs * k.rs);
   return {.rr = (along * A[0] * A[0] * N[1] * N[1] + round) / 3.0 * G,
           .ss = (along * A[1] * A[1] * N[0] * N[0] + round) / 3.0 * G,
           .rs = (along * A.squaredNorm() * N[0] * N[1] + any * rs * (r2 + s2)) / 6.0 * G};
+}
+
+/// (5)
+double resolved_share(const Tilts& m, double area, double thickness) {
+  const Vec2 mean = 0.25 * (m[0] + m[1] + m[2] + m[3]);
+  double spread2 = 0.0;
+  for (const Vec2& tilt : m) spread2 = std::max(spread2, (tilt - mean).squaredNorm());
+  return 1.0 / (1.0 + spread2 * area / (12.0 * thickness * thickness));
 }
 
 }  // namespace
@@ -194,7 +204,7 @@ bool surface_terms(const Quad4& quad, std::span<const Vec3> directors, const Fla
                   (1.0 - c.squaredNorm());  // (2)
   Chord e_rr = 0.5 * (A + B) - d, e_ss = 0.5 * (C + D) - d;
   if (curved) {
-    const Covariant<Chord> mean = parabolas(f, m, J, J_inv, thickness);
+    const Covariant<Chord> mean = parabolas(f, m, J, J_inv);
     e_rr += mean.rr;
     e_ss += mean.ss;
     e_rs += mean.rs;
@@ -206,7 +216,9 @@ bool surface_terms(const Quad4& quad, std::span<const Vec3> directors, const Fla
   const Pair u_r = to_plane.lazyProduct(e_r), u_s = to_plane.lazyProduct(e_s);
   e_d << 0.5 * (A - B) - x_d.transpose().lazyProduct(u_r), 0.5 * (C - D) - x_d.transpose().lazyProduct(u_s);
   const Pair u_d = to_plane.lazyProduct(e_d);
-  for (int i = 0; i < 4; ++i) E.middleRows<2>(2 * i) = corner_r[i] * u_r + corner_s[i] * u_s + corner_h[i] * u_d;
+  const double share = resolved_share(m, 4.0 * J.determinant(), thickness);
+  for (int i = 0; i < 4; ++i)
+    E.middleRows<2>(2 * i) = share * corner_r[i] * u_r + share * corner_s[i] * u_s + share * corner_h[i] * u_d;
   return true;
 }
 

@@ -24,7 +24,8 @@ struct FlatQuad {
 FlatQuad flat_quad(const Quad4& quad, std::span<const Vec3> nodes);
 
 /// E of u_corner + E (w θx θy), rows (u v) of the corners: the flat membrane sees the strains of the surface through
-/// the nodes instead of its own, rotations in its plane as before. Rigid motions have E = 0.
+/// the nodes instead of its own, where it resolves √(R t), and its rotation in the plane as before. No part in rigid
+/// motions.
 /// @param directors  of all nodes, or none: then the surface is that of straight edges between the nodes
 /// @param thickness  of the section [m]
 /// @returns false for a flat quad: E = 0, not filled in

@@ -8,10 +8,10 @@
 namespace tenon::fem {
 
 /// Stiffness and mass of a four-node shell, 24×24; a warped one lies in its mean plane, its nodes joined to the corners
-/// by rigid arms, and has the membrane strains of the curved surface (quad4_geometry.hpp). Membrane with incompatible
-/// modes, MITC4 shear with edge rotations (exact thin limit), drilling stiffness relative to the membrane's rotation,
-/// no drilling mass. Laminates couple membrane and bending; an offset carries the middle surface off the nodes along
-/// the normal. Theory: shell_theory.hpp, laminate.hpp, quad4.cpp.
+/// by rigid arms, and has the membrane strains of the curved surface where it resolves √(R t) (quad4_geometry.cpp).
+/// Membrane with incompatible modes, MITC4 shear with edge rotations (exact thin limit), drilling stiffness relative to
+/// the membrane's rotation, no drilling mass. Laminates couple membrane and bending; an offset carries the middle
+/// surface off the nodes along the normal. Theory: shell_theory.hpp, laminate.hpp, quad4.cpp.
 /// @param nodes  positions of all nodes of the model [m]
 /// @param directors  of all nodes (`shell_directors`), zero where a node has none; without them its edges are straight
 /// @throws ModelError naming the element: zero area, folded or crossed corners, thickness, E or G ≤ 0, ν outside
