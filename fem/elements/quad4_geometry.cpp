@@ -64,21 +64,17 @@ using Vec2 = Eigen::Vector2d;
 using Mat2 = Eigen::Matrix2d;
 using Tilts = std::array<Vec2, 4>;
 
-/// Tilts of the nodes' normals against the plane's, zero without directors; false if they are none.
+/// Tilts of the nodes' normals against the plane's; false where a node has none, or all are the plane's.
 bool normal_tilts(const Quad4& quad, std::span<const Vec3> directors, const Mat3& R, Tilts& m) {
-  m.fill(Vec2::Zero());
   if (directors.empty()) return false;
-  Tilts tilts;
   double largest = 0.0;
   for (std::size_t i = 0; i < 4; ++i) {
     const Vec3 n = R.transpose() * directors[static_cast<std::size_t>(quad.nodes[i])];
     if (!(std::abs(n.z()) > 0.5)) return false;  // none, or of another surface
-    tilts[i] = n.head<2>() / n.z();
-    largest = std::max(largest, tilts[i].norm());
+    m[i] = n.head<2>() / n.z();
+    largest = std::max(largest, m[i].norm());
   }
-  if (!(largest > 1e-9)) return false;
-  m = tilts;
-  return true;
+  return largest > 1e-9;
 }
 
 /// What (3) adds to the chord of corners i and j, over (w θx θy).
@@ -188,27 +184,22 @@ bool surface_terms(const Quad4& quad, std::span<const Vec3> directors, const Fla
                    SurfaceTerms& E) {
   using Pair = Eigen::Matrix<double, 2, 12>;
   Tilts m;
-  const bool curved = normal_tilts(quad, directors, f.R, m);
-  if (!curved && f.arms[0].z() == 0.0) return false;
+  if (!normal_tilts(quad, directors, f.R, m)) return false;
 
   const Chord A = 0.25 * chord_terms(f, m, 3, 2), B = 0.25 * chord_terms(f, m, 0, 1);  // (1)
   const Chord C = 0.25 * chord_terms(f, m, 1, 2), D = 0.25 * chord_terms(f, m, 0, 3);
-  Chord e_rs = (chord_terms(f, m, 0, 2) - chord_terms(f, m, 1, 3)) / 16.0;
+  const Chord centre = (chord_terms(f, m, 0, 2) - chord_terms(f, m, 1, 3)) / 16.0;
   Mat2 J;  // columns x_r, x_s
   J << corner_r.dot(f.x), corner_s.dot(f.x), corner_r.dot(f.y), corner_s.dot(f.y);
   J *= 0.25;
   const Mat2 J_inv = J.inverse(), to_plane = J_inv.transpose();
   const Vec2 x_d(0.25 * corner_h.dot(f.x), 0.25 * corner_h.dot(f.y)), c = J_inv * x_d;
   const Chord d = (0.5 * c[0] * ((1.0 - c[0]) * A - (1.0 + c[0]) * B) +
-                   0.5 * c[1] * ((1.0 - c[1]) * C - (1.0 + c[1]) * D) - 2.0 * c[0] * c[1] * e_rs) /
+                   0.5 * c[1] * ((1.0 - c[1]) * C - (1.0 + c[1]) * D) - 2.0 * c[0] * c[1] * centre) /
                   (1.0 - c.squaredNorm());  // (2)
-  Chord e_rr = 0.5 * (A + B) - d, e_ss = 0.5 * (C + D) - d;
-  if (curved) {
-    const Covariant<Chord> mean = parabolas(f, m, J, J_inv);
-    e_rr += mean.rr;
-    e_ss += mean.ss;
-    e_rs += mean.rs;
-  }
+  const Covariant<Chord> parabola = parabolas(f, m, J, J_inv);
+  const Chord e_rr = 0.5 * (A + B) - d + parabola.rr, e_ss = 0.5 * (C + D) - d + parabola.ss;
+  const Chord e_rs = centre + parabola.rs;
   // corners that show these strains and do not turn: x_r·u_r = e_rr, x_s·u_r = e_rs, …, x_r·u_d + x_d·u_r = ½(A−B)
   Pair e_r, e_s, e_d;
   e_r << e_rr, e_rs;

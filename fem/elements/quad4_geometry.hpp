@@ -26,9 +26,9 @@ FlatQuad flat_quad(const Quad4& quad, std::span<const Vec3> nodes);
 /// E of u_corner + E (w θx θy), rows (u v) of the corners: the flat membrane sees the strains of the surface through
 /// the nodes instead of its own, where it resolves √(R t), and its rotation in the plane as before. No part in rigid
 /// motions.
-/// @param directors  of all nodes, or none: then the surface is that of straight edges between the nodes
+/// @param directors  of all nodes, zero where a node has none; or none at all
 /// @param thickness  of the section [m]
-/// @returns false for a flat quad: E = 0, not filled in
+/// @returns false for a flat quad and where a node has no director: E = 0, not filled in
 using SurfaceTerms = Eigen::Matrix<double, 8, 12>;
 bool surface_terms(const Quad4& quad, std::span<const Vec3> directors, const FlatQuad& flat, double thickness,
                    SurfaceTerms& E);

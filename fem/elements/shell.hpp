@@ -13,7 +13,7 @@ namespace tenon::fem {
 /// the membrane's rotation, no drilling mass. Laminates couple membrane and bending; an offset carries the middle
 /// surface off the nodes along the normal. Theory: shell_theory.hpp, laminate.hpp, quad4.cpp.
 /// @param nodes  positions of all nodes of the model [m]
-/// @param directors  of all nodes (`shell_directors`), zero where a node has none; without them its edges are straight
+/// @param directors  of all nodes (`shell_directors`), zero where a node has none; without them the quad is flat
 /// @throws ModelError naming the element: zero area, folded or crossed corners, thickness, E or G ≤ 0, ν outside
 ///         (−1, 1/2], negative ratios or mass; a ply that is none, a laminate's direction along the normal.
 void quad4_matrices(const Quad4& quad, const ShellSection& section, const Material& material,
