@@ -62,10 +62,10 @@ using Chord = Eigen::Matrix<double, 1, 12>;
 
 using Vec2 = Eigen::Vector2d;
 using Mat2 = Eigen::Matrix2d;
-using Tilts = std::array<Vec2, 4>;
+using NormalTilts = std::array<Vec2, 4>;
 
-/// Tilts of the nodes' normals against the plane's; false where a node has none, or all are the plane's.
-bool normal_tilts(const Quad4& quad, std::span<const Vec3> directors, const Mat3& R, Tilts& m) {
+/// NormalTilts of the nodes' normals against the plane's; false where a node has none, or all are the plane's.
+bool normal_tilts(const Quad4& quad, std::span<const Vec3> directors, const Mat3& R, NormalTilts& m) {
   if (directors.empty()) return false;
   double largest = 0.0;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -78,7 +78,7 @@ bool normal_tilts(const Quad4& quad, std::span<const Vec3> directors, const Mat3
 }
 
 /// What (3) adds to the chord of corners i and j, over (w θx θy).
-Chord chord_terms(const FlatQuad& f, const Tilts& m, int i, int j) {
+Chord chord_terms(const FlatQuad& f, const NormalTilts& m, int i, int j) {
   const auto ki = static_cast<std::size_t>(i), kj = static_cast<std::size_t>(j);
   const double dx = f.x[j] - f.x[i], dy = f.y[j] - f.y[i];
   const double bend = (dx * (m[kj].x() - m[ki].x()) + dy * (m[kj].y() - m[ki].y())) / 12.0;
@@ -96,7 +96,7 @@ struct Covariant {
 };
 
 /// ¼ Δm·Δx of corners i and j.
-double normal_turn(const FlatQuad& f, const Tilts& m, int i, int j) {
+double normal_turn(const FlatQuad& f, const NormalTilts& m, int i, int j) {
   return 0.25 *
          Vec2(f.x[j] - f.x[i], f.y[j] - f.y[i]).dot(m[static_cast<std::size_t>(j)] - m[static_cast<std::size_t>(i)]);
 }
@@ -111,7 +111,7 @@ Chord bending_turn(const FlatQuad& f, int i, int j) {
 }
 
 /// (4). `J`: columns x_r, x_s
-Covariant<Chord> parabolas(const FlatQuad& f, const Tilts& m, const Mat2& J, const Mat2& J_inv) {
+Covariant<Chord> parabolas(const FlatQuad& f, const NormalTilts& m, const Mat2& J, const Mat2& J_inv) {
   const Covariant<double> z{.rr = 0.5 * (normal_turn(f, m, 3, 2) + normal_turn(f, m, 0, 1)),
                             .ss = 0.5 * (normal_turn(f, m, 1, 2) + normal_turn(f, m, 0, 3)),
                             .rs = f.arms[0].z()};
@@ -139,7 +139,7 @@ Covariant<Chord> parabolas(const FlatQuad& f, const Tilts& m, const Mat2& J, con
 }
 
 /// (5)
-double resolved_share(const Tilts& m, double area, double thickness) {
+double resolved_share(const NormalTilts& m, double area, double thickness) {
   const Vec2 mean = 0.25 * (m[0] + m[1] + m[2] + m[3]);
   double spread2 = 0.0;
   for (const Vec2& tilt : m) spread2 = std::max(spread2, (tilt - mean).squaredNorm());
@@ -183,7 +183,7 @@ FlatQuad flat_quad(const Quad4& quad, std::span<const Vec3> nodes) {
 bool surface_terms(const Quad4& quad, std::span<const Vec3> directors, const FlatQuad& f, double thickness,
                    SurfaceTerms& E) {
   using Pair = Eigen::Matrix<double, 2, 12>;
-  Tilts m;
+  NormalTilts m;
   if (!normal_tilts(quad, directors, f.R, m)) return false;
 
   const Chord A = 0.25 * chord_terms(f, m, 3, 2), B = 0.25 * chord_terms(f, m, 0, 1);  // (1)

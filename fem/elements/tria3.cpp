@@ -64,15 +64,15 @@ FlatTria flatten(const Tria3& tria, std::span<const Vec3> nodes) {
 }
 
 /// How the surface's normals lie to the facet.
-struct Tilts {
+struct FacetTilts {
   std::array<Eigen::Vector2d, 3> m;
   Eigen::Vector2d mean;
   bool curved = false;          ///< false for a flat facet, or where a node has no director
   double drilling_share = 1.0;  ///< (5)
 };
 
-Tilts facet_tilts(const Tria3& tria, std::span<const Vec3> directors, const FlatTria& f, double thickness) {
-  Tilts t;
+FacetTilts facet_tilts(const Tria3& tria, std::span<const Vec3> directors, const FlatTria& f, double thickness) {
+  FacetTilts t;
   if (directors.empty()) return t;
   double largest = 0.0, spread2 = 0.0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -90,7 +90,7 @@ Tilts facet_tilts(const Tria3& tria, std::span<const Vec3> directors, const Flat
 }
 
 /// What (2)–(4) add to (u v θz), from (θx θy) of the nodes.
-Eigen::Matrix<double, 9, 6> curvature_terms(const FlatTria& f, const Tilts& tilts) {
+Eigen::Matrix<double, 9, 6> curvature_terms(const FlatTria& f, const FacetTilts& tilts) {
   using Vec2 = Eigen::Vector2d;
   using Row = Eigen::Matrix<double, 1, 6>;
   const std::array<Vec2, 3>& m = tilts.m;
@@ -132,7 +132,7 @@ Eigen::Matrix<double, 9, 6> curvature_terms(const FlatTria& f, const Tilts& tilt
 
 /// Node forces and moments of unit membrane stress over unit thickness, over (u v θz): α_b = 3/2 times (5). Lᵀu/A is
 /// the mean strain.
-Eigen::Matrix<double, 9, 3> lumping(const FlatTria& f, const Tilts& tilts) {
+Eigen::Matrix<double, 9, 3> lumping(const FlatTria& f, const FacetTilts& tilts) {
   const auto x = [&f](int i, int j) { return f.x[i] - f.x[j]; };
   const auto y = [&f](int i, int j) { return f.y[i] - f.y[j]; };
   const double alpha_b = 1.5 * tilts.drilling_share;
@@ -149,7 +149,7 @@ Eigen::Matrix<double, 9, 3> lumping(const FlatTria& f, const Tilts& tilts) {
 }
 
 /// Stiffness over (u v θz), (1). Indices i, j, k are cyclic; edges 1-2, 2-3, 3-1.
-Mat9 membrane_stiffness(const ShellTheory& theory, const FlatTria& f, const Tilts& tilts) {
+Mat9 membrane_stiffness(const ShellTheory& theory, const FlatTria& f, const FacetTilts& tilts) {
   const double beta_0 = tilts.drilling_share * std::max(0.5 * (1.0 - 4.0 * theory.nu * theory.nu), 0.01);
   const auto x = [&f](int i, int j) { return f.x[i] - f.x[j]; };
   const auto y = [&f](int i, int j) { return f.y[i] - f.y[j]; };
@@ -246,7 +246,7 @@ void tria3_matrices(const Tria3& tria, const ShellSection& section, const Materi
   const ShellTheory theory =
       shell_theory(section, material, tria.material_axis, flat.R.col(0), flat.R, "triangle", tria.id);
 
-  const Tilts tilt = facet_tilts(tria, directors, flat, theory.thickness);
+  const FacetTilts tilt = facet_tilts(tria, directors, flat, theory.thickness);
   const Mat9 K_membrane = membrane_stiffness(theory, flat, tilt);
   Mat9 K_plate, M_plate, K_coupling, M_membrane = Mat9::Zero();
   Eigen::Matrix<double, 9, 3> kappa;
@@ -299,7 +299,7 @@ void tria3_geometric_stiffness(const Tria3& tria, const ShellSection& section, c
     N_y[i] = (flat.x[k] - flat.x[j]) / (2.0 * flat.A);
     edge[static_cast<std::size_t>(i)] = plate_edge(theory, flat.x[j] - flat.x[i], flat.y[j] - flat.y[i]);
   }
-  const Tilts tilt = facet_tilts(tria, directors, flat, theory.thickness);
+  const FacetTilts tilt = facet_tilts(tria, directors, flat, theory.thickness);
   if (tilt.curved) in_plane += curvature_terms(flat, tilt) * across;
   Vec3 curvature = Vec3::Zero();  // the element's mean
   for (std::size_t k = 0; k < 3; ++k) curvature += edge_bending(edge[k], bending[k], bending[(k + 1) % 3]) / flat.A;

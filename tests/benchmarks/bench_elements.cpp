@@ -34,6 +34,10 @@ const fem::ShellSection skin{.name = "skin", .thickness = 1e-3};
 const std::array<fem::Vec3, 4> corners{fem::Vec3(0.0, 0.0, 0.0), fem::Vec3(0.1, 0.01, 0.0), fem::Vec3(0.11, 0.1, 0.01),
                                        fem::Vec3(0.0, 0.09, 0.0)};
 
+// normals of a surface curved both ways, so that the curvature terms take part
+const std::array<fem::Vec3, 4> normals{fem::Vec3(-0.05, -0.04, 1.0), fem::Vec3(0.05, -0.05, 1.0),
+                                       fem::Vec3(0.06, 0.05, 1.0), fem::Vec3(-0.04, 0.04, 1.0)};
+
 void quad(benchmark::State& state) {
   fem::ElementMatrices out;
   for (auto _ : state) {
@@ -46,6 +50,22 @@ void triangle(benchmark::State& state) {
   fem::ElementMatrices out;
   for (auto _ : state) {
     fem::tria3_matrices({.nodes = {0, 1, 2}}, skin, aluminium, corners, out);
+    benchmark::DoNotOptimize(out.K.data());
+  }
+}
+
+void curved_quad(benchmark::State& state) {
+  fem::ElementMatrices out;
+  for (auto _ : state) {
+    fem::quad4_matrices({.nodes = {0, 1, 2, 3}}, skin, aluminium, corners, out, normals);
+    benchmark::DoNotOptimize(out.K.data());
+  }
+}
+
+void curved_triangle(benchmark::State& state) {
+  fem::ElementMatrices out;
+  for (auto _ : state) {
+    fem::tria3_matrices({.nodes = {0, 1, 2}}, skin, aluminium, corners, out, normals);
     benchmark::DoNotOptimize(out.K.data());
   }
 }
@@ -95,5 +115,7 @@ void assemble_on_two_threads(benchmark::State& state) {
 BENCHMARK(beam);
 BENCHMARK(quad);
 BENCHMARK(triangle);
+BENCHMARK(curved_quad);
+BENCHMARK(curved_triangle);
 BENCHMARK(assemble_on_two_threads)->ArgName("tilted")->Arg(0)->Arg(1)->Unit(benchmark::kSecond)->Iterations(9);
 BENCHMARK_MAIN();
