@@ -2,6 +2,8 @@
 
 #include <array>
 #include <functional>
+#include <map>
+#include <set>
 
 #include "fem/formats/abaqus/beam_sections.hpp"
 
@@ -11,6 +13,16 @@ namespace {
 constexpr const char* own_matrices =
     "no element of this program carries it; the K and M that the other program makes of the part can be used instead "
     "(`matrices:` in a scene)";
+
+/// What a section's keyword may say without changing the linear K and M in a way that is not read here.
+const std::map<std::string, std::set<std::string>> section_parameters{
+    {"BEAM SECTION", {"ELSET", "MATERIAL", "SECTION", "POISSON", "TEMPERATURE"}},
+    {"BEAM GENERAL SECTION", {"ELSET", "MATERIAL", "SECTION", "DENSITY", "POISSON", "ZERO"}},
+    {"SHELL SECTION",
+     {"ELSET", "MATERIAL", "COMPOSITE", "OFFSET", "NODAL THICKNESS", "ORIENTATION", "CONTROLS", "POISSON",
+      "SECTION INTEGRATION", "TEMPERATURE", "THICKNESS MODULUS"}},
+    {"MASS", {"ELSET", "ALPHA", "COMPOSITE"}},
+    {"SPRING", {"ELSET", "NONLINEAR", "COMPLEX STIFFNESS", "ORIENTATION", "DEPENDENCIES", "RTOL"}}};
 
 struct SectionReader {
   Draft& draft;
@@ -25,6 +37,11 @@ struct SectionReader {
     const std::string set = block.value("ELSET");
     if (set.empty()) block.refuse(fmt::format("*{} has no ELSET", block.keyword), "Name the elements it is for");
     draft.deck.has_sections = true;
+    if (const auto known = section_parameters.find(block.keyword); known != section_parameters.end())
+      for (const auto& [name, value] : block.parameters)
+        if (!known->second.contains(name))
+          draft.losses.add_physical(fmt::format("*{}, {}", block.keyword, name),
+                                    "this parameter of the section is not read", block.place);
     for (const int e : draft.element_set(set, block.place)) {
       Place& owner = section_of[static_cast<std::size_t>(e)];
       const ListedElement& element = draft.elements[static_cast<std::size_t>(e)];

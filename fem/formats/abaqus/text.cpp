@@ -142,8 +142,11 @@ void Reader::file(const fs::path& path, const Place& asked_at) {
     for (std::size_t i = 1; i < parts.size(); ++i) {
       const std::size_t equals = parts[i].find('=');
       if (parts[i].empty()) continue;
-      block.parameters[keyword_name(parts[i].substr(0, equals))] =
+      const std::string name = keyword_name(parts[i].substr(0, equals));
+      const std::string value =
           equals == std::string_view::npos ? std::string() : unquoted(trim(parts[i].substr(equals + 1)));
+      if (!block.parameters.emplace(name, value).second)
+        block.refuse(fmt::format("*{} gives {} twice", block.keyword, name), "Keep one of the two");
     }
     if (block.keyword.empty())
       block.refuse("found a * without a keyword", "Write the keyword behind it, or ** for a comment");
