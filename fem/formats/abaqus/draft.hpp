@@ -62,6 +62,7 @@ struct DraftMaterial {
   Material material;
   Place place;
   bool isotropic = true;
+  bool varies = false;  ///< with temperature: the first line of its numbers is taken
 };
 
 struct Draft {

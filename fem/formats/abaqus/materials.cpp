@@ -20,6 +20,8 @@ void elastic(const Block& block, DraftMaterial& current) {
   m.nu = line.real(1, "Poisson's ratio", 0.0);
   if (!(m.nu > -1.0 && m.nu <= 0.5)) line.fail(1, "Poisson's ratio above −1 and at most 0.5");
   m.G = 0.5 * m.E / (1.0 + m.nu);
+  while (line.next())
+    current.varies |= line.real(0, "Young's modulus") != m.E || line.real(1, "Poisson's ratio", 0.0) != m.nu;
 }
 
 void density(const Block& block, DraftMaterial& current) {
@@ -27,6 +29,7 @@ void density(const Block& block, DraftMaterial& current) {
   if (!line.next()) block.refuse("*DENSITY has no data line", "Give the density");
   current.material.rho = line.real(0, "the density");
   if (!(current.material.rho >= 0.0)) line.fail(0, "a density that is not negative");
+  while (line.next()) current.varies |= line.real(0, "the density") != current.material.rho;
 }
 
 }  // namespace

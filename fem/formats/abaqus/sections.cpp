@@ -67,6 +67,9 @@ struct SectionReader {
     }
     if (!(found->second.material.E > 0.0) && found->second.isotropic)
       block.refuse(fmt::format("material '{}' has no *ELASTIC", name), "Give its E and ν");
+    if (found->second.varies)
+      draft.losses.add_physical(fmt::format("*MATERIAL {}", name),
+                                "it varies with temperature, and its first numbers alone are read", block.place);
     return found->second;
   }
 

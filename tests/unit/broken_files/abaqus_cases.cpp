@@ -109,6 +109,16 @@ std::vector<Case> section_cases() {
             {"*ELASTIC", "second"}, {{19, 0}}),
       lines("density twice in a material", "*MATERIAL, NAME=N\n*DENSITY\n1\n*DENSITY\n2\n", {"*DENSITY", "second"},
             {{19, 0}}),
+      lines("moduli of two temperatures",
+            "*MATERIAL, NAME=N\n*ELASTIC\n2e9, 0.3, 20\n1e9, 0.3, 400\n*ELEMENT, TYPE=S3, ELSET=T\n11, 1, 2, 3\n"
+            "*SHELL SECTION, ELSET=T, MATERIAL=N\n0.01\n",
+            {"*MATERIAL N (1 found", "varies with temperature"}, {{22, 0}}),
+      lines("density of two temperatures",
+            "*MATERIAL, NAME=N\n*ELASTIC\n2e9, 0.3\n*DENSITY\n2, 20\n1, 400\n*ELEMENT, TYPE=S3, ELSET=T\n11, 1, 2, 3\n"
+            "*SHELL SECTION, ELSET=T, MATERIAL=N\n0.01\n",
+            {"*MATERIAL N (1 found", "varies with temperature"}, {{24, 0}}),
+      lines("modulus of the second temperature", "*MATERIAL, NAME=N\n*ELASTIC\n1e9, 0.3, 20\nhot, 0.3, 400\n",
+            {"'hot'"}, {{19, 1}}),
       lines("modulus of zero", "*MATERIAL, NAME=N\n*ELASTIC\n0, 0.3\n", {"'0'", "Young's modulus"}, {{18, 1}}),
       lines("modulus that is nan", "*MATERIAL, NAME=N\n*ELASTIC\nNaN, 0.3\n", {"'NaN'"}, {{18, 1}}),
       lines("Poisson's ratio above a half", "*MATERIAL, NAME=N\n*ELASTIC\n1e9, 0.51\n", {"Poisson's ratio"}, {{18, 6}}),
@@ -330,6 +340,8 @@ std::vector<Case> text_cases() {
                "*NSET, NSET=ROOT, GENERATE\n1, 4, 3\n9223372036854775806, 9223372036854775807, 1"));
   odd("set that is empty", replaced(whole_deck, "*MATERIAL", "*ELSET, ELSET=NIL\n*MATERIAL"));
   odd("block of elements that is empty", replaced(whole_deck, "*MATERIAL", "*ELEMENT, TYPE=S4\n*MATERIAL"));
+  odd("one modulus at two temperatures",
+      replaced(whole_deck, "2.1E11, 0.3\n", "2.1E11, 0.3, 20.\n2.1E11, 0.3, 400.\n"));
   odd("support that is empty", replaced(whole_deck, "*BOUNDARY\n1, 1, 6\n", "*BOUNDARY\n"));
   return cases;
 }
