@@ -229,12 +229,21 @@ TEST_F(Cli, InitWritesScenesForEveryFormat) {
                 "0 0 0 1 0 0 1 1 0 0 1 0\nCELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n9\n");
   EXPECT_EQ(tenon("export " + (folder / "plain.vtk").string() + " -o " + (folder / "plain.vtu").string()).status, 0);
   EXPECT_THAT(check("plate.bdf"), HasSubstr("boundary: {set: boundary}"));
+  fs::copy_file(folder / "plate.bdf", folder / "plate.dat");
+  EXPECT_THAT(check("plate.dat"), HasSubstr("fe: \"plate.dat\""));
   const std::string deck = check("deck.inp");
   EXPECT_THAT(deck, HasSubstr("      CORNER: {set: CORNER}\n      # EDGE: {set: EDGE}  # shares points"));
   EXPECT_THAT(deck, HasSubstr("# NALL: {set: NALL}  # most of the points"));
   EXPECT_THAT(check("mesh.inp"), HasSubstr("\"MY SKIN\": {shell"));
   EXPECT_THAT(check("plain.vtk"), HasSubstr("everywhere: {shell"));
   check("plain.vtu");
+  folder_.write(
+      "plain.xdmf",
+      "<Xdmf Version=\"3.0\"><Domain><Grid GridType=\"Uniform\">\n<Topology TopologyType=\"Quadrilateral\" "
+      "NumberOfElements=\"1\"><DataItem Dimensions=\"1 4\" NumberType=\"Int\" Format=\"XML\">0 1 2 3</DataItem>"
+      "</Topology>\n<Geometry GeometryType=\"XYZ\"><DataItem Dimensions=\"4 3\" Format=\"XML\">"
+      "0 0 0 1 0 0 1 1 0 0 1 0</DataItem></Geometry>\n</Grid></Domain></Xdmf>\n");
+  EXPECT_THAT(check("plain.xdmf"), HasSubstr("everywhere: {shell"));
   folder_.write("block.vtk",
                 "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n"
                 "0 0 0 1 0 0 1 1 0 0 1 1\nCELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n");
