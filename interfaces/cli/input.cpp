@@ -11,6 +11,8 @@ namespace tenon::cli {
 
 InputKind kind_of(const std::filesystem::path& file) {
   std::error_code fault;
+  if (std::filesystem::is_directory(file, fault))
+    throw InputError({file.string()}, "this is a folder", "Name a file in it");
   if (!std::filesystem::is_regular_file(file, fault)) {
     std::vector<std::string> names;
     const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");

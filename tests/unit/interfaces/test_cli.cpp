@@ -247,6 +247,9 @@ TEST_F(Cli, InitWritesScenesForEveryFormat) {
   folder_.write("block.vtk",
                 "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n"
                 "0 0 0 1 0 0 1 1 0 0 1 1\nCELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n");
+  const Ended none = tenon("init " + folder.string());
+  EXPECT_EQ(none.status, 2);
+  EXPECT_THAT(none.err, HasSubstr("this is a folder"));
   const Ended solid = tenon("init " + (folder / "block.vtk").string());
   EXPECT_EQ(solid.status, 2);
   EXPECT_THAT(solid.err, HasSubstr("by the K and M of the program that owns it"));
