@@ -76,12 +76,14 @@ struct Entity {
   std::vector<EntityBlock> blocks;
 };
 
-/// The mesh's numbers if they are positive and each stands once, else 1, 2, ...
+/// The mesh's numbers if they are positive, each stands once and all fit the 4 bytes that data has for them, else
+/// 1, 2, ...
 std::vector<long> numbers(std::vector<long> own, std::size_t n) {
   std::vector<long> sorted = own;
   std::ranges::sort(sorted);
-  const bool good =
-      own.size() == n && (n == 0 || sorted.front() > 0) && std::ranges::adjacent_find(sorted) == sorted.end();
+  constexpr long most = std::numeric_limits<int>::max();
+  const bool good = own.size() == n && (n == 0 || (sorted.front() > 0 && sorted.back() <= most)) &&
+                    std::ranges::adjacent_find(sorted) == sorted.end();
   if (!good) {
     own.resize(n);
     for (std::size_t i = 0; i < n; ++i) own[i] = static_cast<long>(i) + 1;
@@ -92,6 +94,14 @@ std::vector<long> numbers(std::vector<long> own, std::size_t n) {
 const ElementType& element_type_of(CellType type) {
   for (int k = 1;; ++k)
     if (const ElementType* e = element_type(k); e->type == type) return *e;
+}
+
+void check_name(const char* of, const std::string& name) {
+  if (name.empty()) throw ModelError(fmt::format("a {} has no name", of), "Give it one");
+  if (name.find_first_of("\"\n\r") != std::string::npos)
+    throw ModelError(
+        fmt::format("the name of {} '{}' holds a quote or a line end, which .msh has no way to write", of, name),
+        "Give it another name");
 }
 
 class Writer {
@@ -167,6 +177,11 @@ void Writer::check() const {
       if (blocks[b].size() > 0 && blocks[b].rows() != mesh_.cells[b].size())
         fail(fmt::format("cell data '{}' has {} rows for {} cells", name, blocks[b].rows(), mesh_.cells[b].size()));
   }
+  const auto n_points = static_cast<int>(mesh_.points.size());
+  for (const CellBlock& block : mesh_.cells)
+    for (const int node : block.nodes)
+      if (node < 0 || node >= n_points)
+        fail(fmt::format("a {} names point {} of {}", tenon::fem::name(block.type), node, n_points));
   for (const Vec3& x : mesh_.points)
     if (!x.allFinite()) throw ModelError("a point lies nowhere: its coordinates are not finite", "Correct the mesh");
 }
@@ -284,10 +299,7 @@ void Writer::header() {
   out_.line("$PhysicalNames");
   out_.line(std::to_string(names_.size()));
   for (const auto& [dim_tag, name] : names_) {
-    if (name.find_first_of("\"\n\r") != std::string::npos)
-      throw ModelError(
-          fmt::format("the name of set '{}' holds a quote or a line end, which .msh has no way to write", name),
-          "Rename the set");
+    check_name("set", name);
     out_.line(fmt::format("{} {} \"{}\"", dim_tag.first, dim_tag.second, name));
   }
   out_.line("$EndPhysicalNames");
@@ -396,6 +408,8 @@ void Writer::write_cell_data(const std::string& name, const std::vector<Eigen::M
 
 void Writer::write_field(const char* section, const std::string& name, const std::vector<long>& ids,
                          const Eigen::MatrixXd& values) {
+  check_name("data", name);
+  if (values.cols() == 0) return;
   if (values.array().isInf().any())
     throw ModelError(fmt::format("data '{}' hold infinity", name), "Leave out what is not known as NaN");
   if (values.cols() <= 9) return write_columns(section, name, ids, values);

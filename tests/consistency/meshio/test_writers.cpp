@@ -217,8 +217,37 @@ TEST(MeshWriters, OverlappingSetsAndSetsOfPoints) {
   mesh.cell_sets["skin"] = {{1}};
   EXPECT_THROW(fem::write_gmsh(path, mesh), ModelError);
   mesh.cell_sets["skin"] = {{0}};
-  mesh.cell_sets["a \"b\""] = {{0}};
+  for (const char* name : {"a \"b\"", "", "two\nlines"}) {
+    Mesh named = mesh;
+    named.cell_sets[name] = {{0}};
+    EXPECT_THROW(fem::write_gmsh(path, named), ModelError) << name;
+    named = mesh;
+    named.point_data[name] = Eigen::Vector4d::Zero();
+    EXPECT_THROW(fem::write_gmsh(path, named), ModelError) << name;
+  }
+  mesh.cells[0].nodes[2] = 4;
   EXPECT_THROW(fem::write_gmsh(path, mesh), ModelError);
+}
+
+// $NodeData and $ElementData have 4 bytes for a number: one beyond them must not come back as another.
+TEST(MeshWriters, NumbersBeyondFourBytes) {
+  const TemporaryFolder folder;
+  const fs::path path = folder.path() / "mesh.msh";
+  Mesh mesh;
+  mesh.points = {{0, 0, 0}, {1, 0, 0}};
+  mesh.point_ids = {1, (1L << 32) + 5};
+  mesh.cells = {{.type = CellType::line, .nodes = {0, 1}, .ids = {1L << 31}}};
+  mesh.point_data["T"] = Eigen::Vector2d(1.0, 2.0);
+  mesh.point_data["nothing"] = Eigen::MatrixXd(2, 0);
+  mesh.cell_data["E"] = {Eigen::MatrixXd::Constant(1, 1, 3.0)};
+  for (const bool binary : {false, true}) {
+    fem::write_gmsh(path, mesh, {.binary = binary});
+    const Mesh read = fem::read_gmsh(path);
+    EXPECT_EQ(read.point_ids, (std::vector<long>{1, 2}));
+    EXPECT_EQ(read.point_data.at("T"), Eigen::Vector2d(1.0, 2.0));
+    EXPECT_FALSE(read.point_data.contains("nothing"));
+    EXPECT_EQ(read.cell_data.at("E")[0](0, 0), 3.0);
+  }
 }
 
 // Gmsh itself opens the files and writes them in its older format, which has other nodes' and groups' rules.
