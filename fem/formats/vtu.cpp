@@ -46,15 +46,19 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
-void check(const Mesh& mesh, const std::vector<PointArray>& arrays) {
-  const auto n = static_cast<Eigen::Index>(mesh.points.size());
+void check(const std::vector<PointArray>& arrays, Eigen::Index n, const char* things) {
   for (const PointArray& array : arrays) {
     if (array.values.rows() != n)
-      throw ModelError(fmt::format("the array '{}' has {} rows for {} points", array.name, array.values.rows(), n),
-                       "Give one row a point of the mesh");
+      throw ModelError(fmt::format("the array '{}' has {} rows for {} {}", array.name, array.values.rows(), n, things),
+                       "Give one row for each, of the same mesh");
     if (!array.values.allFinite())
       throw ModelError(fmt::format("the array '{}' holds NaN or infinity", array.name), "Give finite values");
   }
+}
+
+void check(const Mesh& mesh, const std::vector<PointArray>& arrays) {
+  const auto n = static_cast<Eigen::Index>(mesh.points.size());
+  check(arrays, n, "points");
   for (const CellBlock& block : mesh.cells)
     for (const int node : block.nodes)
       if (node < 0 || node >= n)
@@ -72,10 +76,10 @@ void open_array(Text& text, const char* type, const std::string& name, Eigen::In
 
 void close_array(Text& text) { fmt::format_to(std::back_inserter(text), "</DataArray>\n"); }
 
-void put_points(Text& text, const Mesh& mesh) {
+void put_points(Text& text, const Mesh& mesh, int digits) {
   open_array(text, "Float64", "Points", 3);
   for (const Vec3& p : mesh.points)
-    fmt::format_to(std::back_inserter(text), "{:.9g} {:.9g} {:.9g}\n", p.x(), p.y(), p.z());
+    fmt::format_to(std::back_inserter(text), "{:.{}g} {:.{}g} {:.{}g}\n", p.x(), digits, p.y(), digits, p.z(), digits);
   close_array(text);
 }
 
@@ -103,11 +107,11 @@ void put_cells(Text& text, const Mesh& mesh) {
   close_array(text);
 }
 
-void put_values(Text& text, const PointArray& array) {
+void put_values(Text& text, const PointArray& array, int digits) {
   open_array(text, "Float64", array.name, array.values.cols());
   for (Eigen::Index i = 0; i < array.values.rows(); ++i) {
     for (Eigen::Index c = 0; c < array.values.cols(); ++c)
-      fmt::format_to(std::back_inserter(text), "{:.9g} ", array.values(i, c));
+      fmt::format_to(std::back_inserter(text), "{:.{}g} ", array.values(i, c), digits);
     text.push_back('\n');
   }
   close_array(text);
@@ -141,10 +145,12 @@ std::vector<PointArray> mode_arrays(const Eigen::Ref<const Eigen::MatrixXd>& sha
   return arrays;
 }
 
-void write_vtu(const std::filesystem::path& path, const Mesh& mesh, const std::vector<PointArray>& arrays) {
+void write_vtu(const std::filesystem::path& path, const Mesh& mesh, const std::vector<PointArray>& arrays,
+               const VtuOptions& options) {
   check(mesh, arrays);
   std::size_t n_cells = 0;
   for (const CellBlock& block : mesh.cells) n_cells += static_cast<std::size_t>(block.size());
+  check(options.cell_arrays, static_cast<Eigen::Index>(n_cells), "cells");
   Text text;
   const auto out = std::back_inserter(text);
   fmt::format_to(out,
@@ -152,12 +158,14 @@ void write_vtu(const std::filesystem::path& path, const Mesh& mesh, const std::v
                  "byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n"
                  "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<Points>\n",
                  mesh.points.size(), n_cells);
-  put_points(text, mesh);
+  put_points(text, mesh, options.digits);
   fmt::format_to(out, "</Points>\n<Cells>\n");
   put_cells(text, mesh);
   fmt::format_to(out, "</Cells>\n<PointData>\n");
-  for (const PointArray& array : arrays) put_values(text, array);
-  fmt::format_to(out, "</PointData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
+  for (const PointArray& array : arrays) put_values(text, array, options.digits);
+  fmt::format_to(out, "</PointData>\n<CellData>\n");
+  for (const PointArray& array : options.cell_arrays) put_values(text, array, options.digits);
+  fmt::format_to(out, "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
   write(path, text);
 }
 

@@ -10,7 +10,7 @@
 /// Pictures for ParaView: VTK's XML files of unstructured grids (.vtu) and collections of them (.pvd).
 namespace tenon::fem {
 
-/// Named values at the points: one row a point, one column a component (three make a vector in ParaView).
+/// Named values at the points (or cells): one row a point, one column a component (three make a vector in ParaView).
 struct PointArray {
   std::string name;
   Eigen::MatrixXd values;
@@ -20,11 +20,17 @@ struct PointArray {
 /// each.
 std::vector<PointArray> mode_arrays(const Eigen::Ref<const Eigen::MatrixXd>& shapes);
 
-/// Writes points, cells and the arrays as text with nine significant digits. The file appears whole or not at all.
-/// Throws ModelError when an array has not one row a point or holds NaN or infinity, InputError when the file cannot be
-/// written. VTK has no 14-node pyramid: its 13 edge and corner nodes are written.
-/// Source: VTK file formats, "UnstructuredGrid"; cell numbers of vtkCellType.h.
-void write_vtu(const std::filesystem::path& path, const Mesh& mesh, const std::vector<PointArray>& arrays = {});
+struct VtuOptions {
+  std::vector<PointArray> cell_arrays{};  ///< one row a cell, block after block
+  int digits = 9;                         ///< significant ones: enough for a picture; 17 give the same numbers again
+};
+
+/// Writes points, cells and the arrays as text. The file appears whole or not at all.
+/// Throws ModelError when an array has not one row a point (a cell) or holds NaN or infinity, InputError when the file
+/// cannot be written. VTK has no 14-node pyramid: its 13 edge and corner nodes are written. Source: VTK file formats,
+/// "UnstructuredGrid"; cell numbers of vtkCellType.h.
+void write_vtu(const std::filesystem::path& path, const Mesh& mesh, const std::vector<PointArray>& arrays = {},
+               const VtuOptions& options = {});
 
 struct AnimationOptions {
   int frames = 24;         ///< over one period

@@ -13,18 +13,39 @@
 namespace tenon::cli {
 namespace {
 
-/// Point data as arrays of a picture; where a value is not known there is none.
-std::vector<fem::PointArray> known_arrays(const fem::Mesh& mesh, std::vector<std::string>& left_out) {
+/// One array of all blocks; empty where they have not the same columns.
+Eigen::MatrixXd joined(const std::vector<Eigen::MatrixXd>& blocks) {
+  Eigen::Index rows = 0;
+  for (const Eigen::MatrixXd& values : blocks) {
+    if (values.cols() != blocks.front().cols()) return {};
+    rows += values.rows();
+  }
+  Eigen::MatrixXd all(rows, blocks.empty() ? 0 : blocks.front().cols());
+  rows = 0;
+  for (const Eigen::MatrixXd& values : blocks) {
+    all.middleRows(rows, values.rows()) = values;
+    rows += values.rows();
+  }
+  return all;
+}
+
+/// The mesh with all its digits, and its data where every value is known: VTK has no other.
+void write_picture(const std::filesystem::path& path, const fem::Mesh& mesh, std::vector<std::string>& left_out) {
   std::vector<fem::PointArray> arrays;
+  fem::VtuOptions options{.cell_arrays = {}, .digits = 17};
   for (const auto& [name, values] : mesh.point_data)
     if (values.allFinite())
       arrays.push_back({name, values});
     else
       left_out.push_back(fmt::format("point data '{}': not known at every point", name));
-  if (!mesh.cell_data.empty()) left_out.push_back(fmt::format("cell data: {} arrays", mesh.cell_data.size()));
+  for (const auto& [name, blocks] : mesh.cell_data)
+    if (Eigen::MatrixXd values = joined(blocks); values.size() > 0 && values.allFinite())
+      options.cell_arrays.push_back({name, std::move(values)});
+    else
+      left_out.push_back(fmt::format("cell data '{}': not known at every cell", name));
   if (!mesh.cell_sets.empty() || !mesh.point_sets.empty())
     left_out.push_back(fmt::format("sets: {}", mesh.cell_sets.size() + mesh.point_sets.size()));
-  return arrays;
+  fem::write_vtu(path, mesh, arrays, options);
 }
 
 }  // namespace
@@ -45,7 +66,7 @@ int run(const ExportOptions& options) {
   if (ending == ".msh")
     fem::write_gmsh(options.output, mesh, {.binary = options.binary});
   else
-    fem::write_vtu(options.output, mesh, known_arrays(mesh, left_out));
+    write_picture(options.output, mesh, left_out);
   std::size_t cells = 0;
   for (const fem::CellBlock& block : mesh.cells) cells += static_cast<std::size_t>(block.size());
   print(

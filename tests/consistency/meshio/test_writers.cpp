@@ -156,7 +156,12 @@ TEST(MeshWriters, MeshioReadsWhatTheyWrite) {
     fem::write_gmsh(stem.string() + ".binary.msh", without, {.binary = true});
     std::vector<fem::PointArray> arrays;
     for (const auto& [name, values] : mesh.point_data) arrays.push_back({name, values});
-    fem::write_vtu(stem.string() + ".vtu", mesh, arrays);
+    Eigen::MatrixXd level(0, 1);
+    for (const Eigen::MatrixXd& block : mesh.cell_data.at("level")) {
+      level.conservativeResize(level.rows() + block.rows(), 1);
+      level.bottomRows(block.rows()) = block;
+    }
+    fem::write_vtu(stem.string() + ".vtu", mesh, arrays, {.cell_arrays = {{"level", level}}, .digits = 17});
     files += 3;
   }
   const std::string log = (folder.path() / "log").string();

@@ -77,7 +77,16 @@ TEST_F(Cli, ExportsMeshesAndTheMeshOfADeck) {
   EXPECT_EQ(tenon("export " + folder + "deck.bdf -o " + folder + "deck.msh").status, 0);
   EXPECT_EQ(object("info " + folder + "deck.msh")["cell_sets"]["pbar 7"]["cells"], 1);
   EXPECT_EQ(tenon("export " + folder + "beam_16.msh -o " + folder + "again.vtu").status, 0);
-  EXPECT_EQ(object("info " + folder + "again.vtu")["points"], info["points"]);
+  for (const char* what : {"points", "cells", "bounding_box_file_units"})  // with all digits
+    EXPECT_EQ(object("info " + folder + "again.vtu")[what], info[what]);
+  folder_.write(
+      "part.vtk",
+      "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 2 double\n0 0 0 0.1234567890123 0 0\n"
+      "CELLS 1 3\n2 0 1\nCELL_TYPES 1\n3\nCELL_DATA 1\nSCALARS E double 1\nLOOKUP_TABLE default\n0.12345678901\n");
+  EXPECT_THAT(tenon("export " + folder + "part.vtk -o " + folder + "part.vtu").out,
+              testing::Not(HasSubstr("cell data")));
+  EXPECT_THAT(text(folder_.path() / "part.vtu"),
+              testing::AllOf(HasSubstr("0.1234567890123"), HasSubstr("0.12345678901 ")));
   const Ended unknown = tenon("export " + folder + "beam_16.msh -o " + folder + "again.stl");
   EXPECT_EQ(unknown.status, 2);
   EXPECT_THAT(unknown.err, HasSubstr("not as '.stl'"));

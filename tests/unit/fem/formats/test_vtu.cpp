@@ -114,6 +114,7 @@ TEST(Vtu, RefusesWhatDoesNotFitAndLeavesTheOldFile) {
   const auto path = scratch.write("a.vtu", "good");
   Mesh mesh = wedge_and_line();
   EXPECT_THROW(write_vtu(path, mesh, {{"u", Eigen::MatrixXd::Zero(5, 3)}}), ModelError);
+  EXPECT_THROW(write_vtu(path, mesh, {}, {.cell_arrays = {{"E", Eigen::MatrixXd::Zero(6, 1)}}}), ModelError);
   EXPECT_THROW(write_vtu(path, mesh, {{"u", Eigen::MatrixXd::Constant(6, 3, std::nan(""))}}), ModelError);
   mesh.cells[1].nodes[1] = 6;
   EXPECT_THROW(write_vtu(path, mesh), ModelError);
