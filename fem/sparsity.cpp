@@ -90,8 +90,8 @@ void sum_by_entry(std::vector<Eigen::Triplet<double>>& terms) {
 /// Those of column j, once summed by entry.
 std::span<const Eigen::Triplet<double>> of_column(const Beside& beside, int j) {
   const auto& strip = beside[static_cast<std::size_t>(j / columns_of_strip)];
-  const auto found = std::ranges::equal_range(strip, j, {}, [](const auto& t) { return t.col(); });
-  return {found.begin(), found.end()};
+  const auto column = [](const auto& t) { return t.col(); };
+  return {std::ranges::lower_bound(strip, j, {}, column), std::ranges::upper_bound(strip, j, {}, column)};
 }
 
 }  // namespace

@@ -171,7 +171,7 @@ void Grid::finish() {
     }
   const auto in_order = [](std::vector<int>& set) {  // sets of one name join, a member may be named twice
     std::ranges::sort(set);
-    set.erase(std::ranges::unique(set).begin(), set.end());
+    set.erase(std::unique(set.begin(), set.end()), set.end());
   };
   for (auto& [name, set] : mesh_.point_sets) in_order(set);
   for (auto& [name, blocks] : mesh_.cell_sets) std::ranges::for_each(blocks, in_order);
