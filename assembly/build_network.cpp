@@ -33,9 +33,9 @@ ReducedBody reduce_fe(const SceneBody& body, const FeSource& fe, const BodyPlan&
     throw InputError(body.place, fmt::format("body '{}' has no port to hang by", body.name),
                      "Add `ports: {root: {set: ...}}`, or solve it as it is with `tenon modes`, alone in a scene");
   if (!fe.supports.empty())
-    throw InputError(body.place,
-                     fmt::format("body '{}' is held to the inertial frame by `fix` and cannot be reduced", body.name),
-                     "Take `fix` out and ground one of its ports, or solve it as it is with `tenon modes`, alone in a scene");
+    throw InputError(
+        body.place, fmt::format("body '{}' is held to the inertial frame by `fix` and cannot be reduced", body.name),
+        "Take `fix` out and ground one of its ports, or solve it as it is with `tenon modes`, alone in a scene");
   const fem::Model model = build_model(body);
   const fem::Structure structure = fem::assemble(model);
   ReducedBody reduced;
