@@ -106,6 +106,7 @@ std::vector<Vec3> shell_directors(const Model& model) {
   if (cells.nodes.empty()) return {};
   const int n = static_cast<int>(model.nodes.size());
   std::vector<Vec3> mean(model.nodes.size());
+#pragma omp parallel for schedule(static)
   for (int i = 0; i < n; ++i) mean[static_cast<std::size_t>(i)] = mean_normal(cells, i);
   std::vector<Vec3> directors = mean;
 #pragma omp parallel
