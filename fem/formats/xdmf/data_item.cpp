@@ -8,7 +8,7 @@
 
 #include "fem/error.hpp"
 #include "fem/formats/file_bytes.hpp"
-#include "fem/formats/xdmf/hdf5.hpp"
+#include "fem/formats/hdf5.hpp"
 
 namespace tenon::fem::xdmf {
 namespace {
@@ -141,7 +141,7 @@ vtk::Values values_of(pugi::xml_node item, Reading& reading, bool whole) {
     const fs::path file = beside(text.substr(0, colon), reading.folder);
     std::error_code fault;
     if (const auto size = fs::file_size(file, fault); !fault) reading.file_bytes += size;
-    values = hdf5_values(file, std::string(text.substr(colon + 1)), reading.most());
+    values = hdf5::File(file).values(std::string(text.substr(colon + 1)), reading.most());
   } else if (format == "Binary") {
     values = binary_values(item, n, type, reading);
   } else {

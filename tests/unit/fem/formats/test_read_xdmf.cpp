@@ -123,7 +123,7 @@ TEST(ReadXdmf, NumbersBesideTheFile) {
   EXPECT_THAT(xdmf_refusal(points("../data.h5:/x"), here), HasSubstr("does not lie in the folder"));
   EXPECT_THAT(xdmf_refusal(points("data.h5"), here), HasSubstr("expected FILE.h5:/DATASET"));
   write_hdf5(here / "data.h5", hsize_t{1} << 40, {});
-  EXPECT_THAT(xdmf_refusal(points("data.h5:/x"), here), HasSubstr("declares 1099511627776 numbers and stores 0 bytes"));
+  EXPECT_THAT(xdmf_refusal(points("data.h5:/x"), here), HasSubstr("declares 1099511627776 values and stores 0 bytes"));
 }
 
 TEST(ReadXdmf, BytesBesideTheFile) {
@@ -263,14 +263,14 @@ TEST(ReadXdmf, NothingLeadsOutOfTheFolder) {
     H5Pset_external(how, "other.h5", 0, 64);
     set(id, how);
   });
-  EXPECT_THAT(said(), HasSubstr("'/x' keeps its numbers in another file"));
+  EXPECT_THAT(said(), HasSubstr("names '/x', which keeps its numbers in another file"));
   make([&](hid_t id) {
     const hid_t how = H5Pcreate(H5P_DATASET_CREATE), space = H5Screate_simple(1, &n, nullptr);
     H5Pset_virtual(how, space, "other.h5", "/x", space);
     H5Sclose(space);
     set(id, how);
   });
-  EXPECT_THAT(said(), HasSubstr("'/x' keeps its numbers in another file"));
+  EXPECT_THAT(said(), HasSubstr("names '/x', which keeps its numbers in another file"));
 }
 
 // HDF5 clips 2^64 − 1 to 2^63 − 1 when asked for signed numbers.
@@ -290,6 +290,6 @@ TEST(ReadXdmf, UnsignedNumbersOfAllBits) {
     if (last == 3)
       EXPECT_EQ(parse_xdmf(text, "part.xdmf", here).cells.at(0).nodes, (std::vector{0, 1, 2, 3}));
     else
-      EXPECT_THAT(xdmf_refusal(text, here), HasSubstr("holds 18446744073709551615"));
+      EXPECT_THAT(xdmf_refusal(text, here), HasSubstr("names '/x', which holds 18446744073709551615"));
   }
 }
