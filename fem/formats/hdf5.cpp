@@ -54,7 +54,7 @@ bool has_links(hid_t file, const std::string& object) {
     H5L_info_t info{};
     if (step.empty() || H5Lget_info(file, step.c_str(), &info, H5P_DEFAULT) < 0) return false;
     if (info.type != H5L_TYPE_HARD)
-      fault(fmt::format("names '{}', a link to another place", step), "Copy the dataset into the file (h5repack)");
+      fault(fmt::format("'{}' is a link to another place", step), "Copy the dataset into the file (h5repack)");
     if (end == object.npos) return true;
   }
 }
@@ -62,8 +62,7 @@ bool has_links(hid_t file, const std::string& object) {
 void check_storage(hid_t data, const std::string& dataset) {
   const Handle how(H5Dget_create_plist(data), H5Pclose);
   if (!how.good() || H5Pget_layout(how) == H5D_VIRTUAL || H5Pget_external_count(how) != 0)
-    fault(fmt::format("names '{}', which keeps its numbers in another file", dataset),
-          "Copy them into the file (h5repack)");
+    fault(fmt::format("'{}' keeps its numbers in another file", dataset), "Copy them into the file (h5repack)");
 }
 
 /// The library clips what does not fit: numbers without sign are read as such, so that none changes in silence.
@@ -72,8 +71,7 @@ herr_t read_unsigned(hid_t data, std::vector<std::int64_t>& whole, const std::st
   const herr_t status = H5Dread(data, H5T_NATIVE_UINT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, raw.data());
   for (std::size_t i = 0; i < raw.size() && status >= 0; ++i) {
     if (!std::in_range<std::int64_t>(raw[i]))
-      fault(fmt::format("names '{}', which holds {}, more than a signed whole number of 64 bits can be", dataset,
-                        raw[i]));
+      fault(fmt::format("'{}' holds {}, more than a signed whole number of 64 bits can be", dataset, raw[i]));
     whole[i] = static_cast<std::int64_t>(raw[i]);
   }
   return status;
@@ -84,21 +82,20 @@ struct Dataset {
   Dataset(hid_t file, const std::string& name, const std::string& file_name)
       : data(has_links(file, name) ? H5Dopen2(file, name.c_str(), H5P_DEFAULT) : -1, H5Dclose),
         type(data.good() ? H5Dget_type(data) : -1, H5Tclose) {
-    if (!data.good()) fault(fmt::format("names '{}', which '{}' does not hold", name, file_name));
+    if (!data.good()) fault(fmt::format("'{}' is not in '{}'", name, file_name));
     check_storage(data, name);
     const Handle space(H5Dget_space(data), H5Sclose);
     const hssize_t n = space.good() ? H5Sget_simple_extent_npoints(space) : -1;
-    if (n < 0 || !type.good()) fault(fmt::format("names '{}', which is damaged", name));
+    if (n < 0 || !type.good()) fault(fmt::format("'{}' is damaged", name));
     count = static_cast<std::size_t>(n);
   }
 
   /// Each value takes `width` bytes, and `stored_width` in the file.
   void check_size(const std::string& name, std::uint64_t width, std::uint64_t stored_width, std::uint64_t most) const {
     if (const hsize_t stored = H5Dget_storage_size(data); count / 1100 * stored_width > stored)
-      fault(fmt::format("names '{}', which declares {} values and stores {} bytes of them", name, count, stored));
+      fault(fmt::format("'{}' declares {} values and stores {} bytes of them", name, count, stored));
     if (count > most / width)
-      fault(fmt::format("names '{}', which declares {} values: with all before, more than a hundred times the files",
-                        name, count));
+      fault(fmt::format("'{}' declares {} values: with all before, more than a hundred times the files", name, count));
   }
 
   Handle data, type;
@@ -106,7 +103,7 @@ struct Dataset {
 };
 
 [[noreturn]] void damaged(const std::string& dataset) {
-  fault(fmt::format("names '{}', which cannot be read: it is damaged, or packed in a way that HDF5 lacks", dataset));
+  fault(fmt::format("'{}' cannot be read: it is damaged, or packed in a way that HDF5 lacks", dataset));
 }
 
 /// Without blanks and zeros at the end.
@@ -127,7 +124,7 @@ Handle open_attribute(hid_t file, const std::string& object, const std::string& 
 File::File(const std::filesystem::path& path) : name_(path.filename().string()) {
   const Quiet quiet;
   id_ = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-  if (id_ < 0) fault(fmt::format("names '{}', which is no HDF5 file", name_));
+  if (id_ < 0) fault(fmt::format("'{}' is no HDF5 file", name_));
 }
 
 File::~File() { H5Fclose(id_); }
@@ -146,7 +143,10 @@ std::vector<std::string> File::members(const std::string& group) const {
     static_cast<std::vector<std::string>*>(list)->emplace_back(name);
     return herr_t{0};
   };
-  if (H5Literate(open, H5_INDEX_NAME, H5_ITER_INC, nullptr, add, &names) < 0) damaged(group);
+  // not in the alphabet's order: HDF5 1.10 then makes a table of the links, and frees what it never took in damaged
+  // ones
+  if (H5Literate(open, H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, add, &names) < 0) damaged(group);
+  std::ranges::sort(names);
   return names;
 }
 
@@ -154,7 +154,7 @@ vtk::Values File::values(const std::string& dataset, std::uint64_t most) const {
   const Quiet quiet;
   const Dataset d(id_, dataset, name_);
   const H5T_class_t kind = H5Tget_class(d.type);
-  if (kind != H5T_INTEGER && kind != H5T_FLOAT) fault(fmt::format("names '{}', which holds no numbers", dataset));
+  if (kind != H5T_INTEGER && kind != H5T_FLOAT) fault(fmt::format("'{}' holds no numbers", dataset));
   d.check_size(dataset, sizeof(double), 1, most);
   vtk::Values values;
   values.real = kind == H5T_FLOAT;
@@ -178,11 +178,11 @@ std::vector<std::string> File::texts(const std::string& dataset, std::uint64_t m
   const bool array = H5Tget_class(d.type) == H5T_ARRAY, string = H5Tget_class(d.type) == H5T_STRING;
   const std::size_t width = H5Tget_size(d.type);
   if (width == 0 || !(array || string) || (string && H5Tis_variable_str(d.type) != 0))
-    fault(fmt::format("names '{}', which holds no texts of one length", dataset));
+    fault(fmt::format("'{}' holds no texts of one length", dataset));
   if (array) {
     const Handle base(H5Tget_super(d.type), H5Tclose);
     if (!base.good() || H5Tget_class(base) != H5T_INTEGER || H5Tget_size(base) != 1)
-      fault(fmt::format("names '{}', which holds no texts", dataset));
+      fault(fmt::format("'{}' holds no texts", dataset));
   }
   d.check_size(dataset, 2 * width + sizeof(std::string), width, most);
   std::string bytes(d.count * width, '\0');

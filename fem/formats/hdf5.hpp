@@ -10,9 +10,9 @@
 
 namespace tenon::fem::hdf5 {
 
-/// An HDF5 file, open to be read. Objects are named by their paths ("/mesh/points"). Functions throw vtk::ArrayFault,
-/// what the file "names …", for what cannot be read and for whatever lies in another file: behind links, in external
-/// storage or in virtual datasets.
+/// An HDF5 file, open to be read. Objects are named by their paths ("/mesh/points"). Functions throw vtk::ArrayFault
+/// for what cannot be read and for whatever lies in another file: behind links, in external storage or in virtual
+/// datasets.
 class File {
  public:
   explicit File(const std::filesystem::path& path);

@@ -9,6 +9,7 @@
 #include "fem/formats/abaqus.hpp"
 #include "fem/formats/extension.hpp"
 #include "fem/formats/gmsh.hpp"
+#include "fem/formats/read_med.hpp"
 #include "fem/formats/read_vtk.hpp"
 #include "fem/formats/read_vtu.hpp"
 #include "fem/formats/read_xdmf.hpp"
@@ -35,13 +36,14 @@ Mesh read_mesh(const std::filesystem::path& path) {
   if (extension == ".vtu") return read_vtu(path);
   if (extension == ".vtk") return read_vtk(path);
   if (extension == ".xdmf" || extension == ".xmf") return read_xdmf(path);
+  if (extension == ".med" || extension == ".mmed" || extension == ".rmed") return read_med(path);
   const bool deck = extension == ".bdf" || extension == ".dat" || extension == ".nas";
   throw InputError(
       {path.string()}, fmt::format("'{}' is not a mesh format that is read here", extension),
-      deck
-          ? "A Nastran deck is a whole model with its own sections, not a mesh: give it where a deck is asked for"
-          : "Give a Gmsh mesh (.msh, version 2.2 or 4.1), an Abaqus one (.inp), a VTK grid (.vtu, .vtk) or an XDMF one "
-            "(.xdmf); gmsh converts others: gmsh in.unv -save -format msh41 -o out.msh");
+      deck ? "A Nastran deck is a whole model with its own sections, not a mesh: give it where a deck is asked for"
+           : "Give a Gmsh mesh (.msh, version 2.2 or 4.1), an Abaqus one (.inp), a VTK grid (.vtu, .vtk), an XDMF "
+             "(.xdmf) "
+             "or a MED one (.med); gmsh converts others: gmsh in.unv -save -format msh41 -o out.msh");
 }
 
 }  // namespace tenon::fem

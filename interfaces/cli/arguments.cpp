@@ -24,7 +24,7 @@ const CLI::Validator positive(
 void add_info(CLI::App& program, int& status) {
   const auto options = std::make_shared<InfoOptions>();
   CLI::App* command = program.add_subcommand("info", "what a mesh or deck holds, and what was read past");
-  command->add_option("MESH", options->file, "a mesh (.msh, .inp, .vtu, .vtk, .xdmf) or deck (.bdf, .dat, .inp)")
+  command->add_option("MESH", options->file, "a mesh (.msh, .inp, .vtu, .vtk, .xdmf, .med) or deck (.bdf, .dat, .inp)")
       ->required();
   command->add_flag("--json", options->json, "one JSON object");
   command->footer("Example: tenon info panel.msh");
@@ -34,7 +34,7 @@ void add_info(CLI::App& program, int& status) {
 void add_export(CLI::App& program, int& status) {
   const auto options = std::make_shared<ExportOptions>();
   CLI::App* command = program.add_subcommand("export", "write a mesh, or the mesh of a deck, in another format");
-  command->add_option("MESH", options->input, "a mesh (.msh, .inp, .vtu, .vtk, .xdmf) or deck (.bdf, .dat, .inp)")
+  command->add_option("MESH", options->input, "a mesh (.msh, .inp, .vtu, .vtk, .xdmf, .med) or deck (.bdf, .dat, .inp)")
       ->required();
   command->add_option("-o,--output", options->output, "a file: .msh (Gmsh 4.1) or .vtu (ParaView)")->required();
   command->add_flag("--binary", options->binary, "of .msh: a binary file");
@@ -45,7 +45,7 @@ void add_export(CLI::App& program, int& status) {
 void add_init(CLI::App& program, int& status) {
   const auto options = std::make_shared<InitOptions>();
   CLI::App* command = program.add_subcommand("init", "write a commented scene for a mesh or deck, to fill in");
-  command->add_option("MESH", options->mesh, "a mesh (.msh, .inp, .vtu, .vtk, .xdmf) or deck (.bdf, .dat, .inp)")
+  command->add_option("MESH", options->mesh, "a mesh (.msh, .inp, .vtu, .vtk, .xdmf, .med) or deck (.bdf, .dat, .inp)")
       ->required();
   command->add_option("-o,--output", options->output, "a scene; standard output when absent");
   command->footer("Example: tenon init panel.msh -o scene.yaml");

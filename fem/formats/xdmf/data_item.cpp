@@ -119,6 +119,14 @@ vtk::Values binary_values(pugi::xml_node item, std::size_t n, const std::string&
   return vtk::raw_values(file.bytes().substr(seek, n * width), type, endian == (big ? "Little" : "Big"));
 }
 
+vtk::Values hdf5_values(const fs::path& file, const std::string& dataset, std::uint64_t most) {
+  try {
+    return hdf5::File(file).values(dataset, most);
+  } catch (const vtk::ArrayFault& fault) {
+    item_fault(fmt::format("names '{}' of '{}': {}", dataset, file.filename().string(), fault.what), fault.cure);
+  }
+}
+
 }  // namespace
 
 vtk::Values values_of(pugi::xml_node item, Reading& reading, bool whole) {
@@ -141,7 +149,7 @@ vtk::Values values_of(pugi::xml_node item, Reading& reading, bool whole) {
     const fs::path file = beside(text.substr(0, colon), reading.folder);
     std::error_code fault;
     if (const auto size = fs::file_size(file, fault); !fault) reading.file_bytes += size;
-    values = hdf5::File(file).values(std::string(text.substr(colon + 1)), reading.most());
+    values = hdf5_values(file, std::string(text.substr(colon + 1)), reading.most());
   } else if (format == "Binary") {
     values = binary_values(item, n, type, reading);
   } else {

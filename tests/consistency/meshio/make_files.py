@@ -17,6 +17,7 @@ except ImportError:
     pass
 ABAQUS = ["line", "triangle", "triangle6", "quad", "quad8", "quad9", "tetra", "tetra10", "hexahedron", "hexahedron20",
           "wedge", "wedge15"]
+MED = ["vertex", "quad", "quad8", "line", "line3", "triangle", "triangle6"]  # it does not turn solids as MED does
 FORMATS = {
     "vtu-ascii": ("vtu", dict(binary=False), 11),
     "vtu-zlib": ("vtu", dict(binary=True), 17),
@@ -34,8 +35,10 @@ FORMATS = {
     "xdmf-text": ("xdmf", dict(data_format="XML"), 16),
     "xdmf-binary": ("xdmf", dict(data_format="Binary"), 17),
     "xdmf-hdf": ("xdmf", dict(data_format="HDF"), 17),
+    "med": ("med", dict(), 17),
 }
-ENDINGS = {"vtu": "vtu", "vtk42": "vtk", "vtk51": "vtk", "gmsh22": "msh", "gmsh": "msh", "abaqus": "inp", "xdmf": "xdmf"}
+ENDINGS = {"vtu": "vtu", "vtk42": "vtk", "vtk51": "vtk", "gmsh22": "msh", "gmsh": "msh", "abaqus": "inp", "xdmf": "xdmf",
+           "med": "med"}
 
 
 def random_mesh(rng, types, cell_numbers, one_type):
@@ -79,10 +82,10 @@ def main():
     rng = np.random.default_rng(20170401)
     for k in range(count):
         for name, (kind, options, digits) in FORMATS.items():
-            types = [t for t in ABAQUS if t in WIDTHS] if kind == "abaqus" else list(WIDTHS)
+            types = dict(abaqus=[t for t in ABAQUS if t in WIDTHS], med=MED).get(kind, list(WIDTHS))
             if kind.startswith("gmsh"):
                 types.remove("wedge18")  # which meshio 5.0 writes in VTK's order
-            mesh = random_mesh(rng, types, kind.startswith("vt") or kind == "xdmf", kind == "gmsh")
+            mesh = random_mesh(rng, types, kind.startswith("vt") or kind in ("xdmf", "med"), kind == "gmsh")
             stem = f"{folder}/{name}-{k}"
             write_truth(f"{stem}.truth", mesh, digits)
             meshio.write(f"{stem}.{ENDINGS[kind]}", mesh, file_format=kind, **options)
