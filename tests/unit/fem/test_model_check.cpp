@@ -340,6 +340,11 @@ TEST(ModelCheck, FortyThousandQuadsTakeLessThanASecond) {
   RecordProperty("matrices_ms", static_cast<int>(1e3 * matrix));
   EXPECT_EQ(found(geometry, "free_edges")->count, 800);
   EXPECT_FALSE(has_error(geometry) || has_error(matrices));
-  EXPECT_LT(geometric, 1.0);
-  EXPECT_LT(matrix, 1.0);
+#if defined(__SANITIZE_ADDRESS__)
+  constexpr double limit = 20.0;  // a build that checks every access
+#else
+  constexpr double limit = 1.0;
+#endif
+  EXPECT_LT(geometric, limit);
+  EXPECT_LT(matrix, limit);
 }
