@@ -34,7 +34,9 @@ std::vector<Finding> check_mesh(const Mesh& mesh, const CheckLimits& limits) {
 }
 
 std::vector<Finding> check_geometry(const Model& model, const CheckLimits& limits) {
-  return check_cells(checks::cells_of(model), limits);
+  std::vector<Finding> findings = check_cells(checks::cells_of(model), limits);
+  if (!faulty_element(findings)) checks::check_curvature(model, limits, findings);
+  return findings;
 }
 
 std::vector<Finding> check_model(const Model& model, const CheckLimits& limits, Structure* assembled) {

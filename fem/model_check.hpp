@@ -44,11 +44,13 @@ struct CheckLimits {
   double angle_max_quad = 150.0;  ///< [deg]
   double angle_max_triangle = 160.0;  ///< [deg]
   double aspect = 10.0;               ///< longest over shortest side; triangles: √3/2 · longest side over its height
+  double curvature = 10.0;            ///< h²/(R t) of skew shells, h² their area, R the least radius between corners
   double jacobian = 0.1;              ///< least over largest Jacobian determinant at the corners, at least
 };
 
 /// Checks that need neither stiffness nor mass: nodes without elements, coincident nodes, parts that nothing connects,
-/// duplicate elements, shapes, free edges and normals of shells. O(n log n).
+/// duplicate elements, shapes, free edges and normals of shells; of models also how far shells resolve their curvature.
+/// O(n log n).
 std::vector<Finding> check_mesh(const Mesh& mesh, const CheckLimits& limits = {});
 std::vector<Finding> check_geometry(const Model& model, const CheckLimits& limits = {});
 

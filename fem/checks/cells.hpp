@@ -60,6 +60,7 @@ void check_duplicates(const Cells& cells, const CheckLimits& limits, std::vector
 void check_shapes(const Cells& cells, const CheckLimits& limits, std::vector<Finding>& findings);
 void check_supports(const Model& model, const CheckLimits& limits, std::vector<Finding>& findings);
 void check_masses(const Model& model, const CheckLimits& limits, std::vector<Finding>& findings);
+void check_curvature(const Model& model, const CheckLimits& limits, std::vector<Finding>& findings);
 void check_edges(const Cells& cells, const CheckLimits& limits, std::vector<Finding>& findings);
 
 /// Pairs (a, b), a < b, no further apart than `distance`; n at one place make n − 1 pairs. O(n log n).

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "fem/checks/cells.hpp"
@@ -323,6 +324,45 @@ TEST(ModelCheck, CoincidentPairsAreThoseOfAllAgainstAll) {
   const auto last = std::unique(distinct.begin(), distinct.end());
   EXPECT_EQ(checks::coincident_pairs(x, 1e-9).size(), x.size() - static_cast<std::size_t>(last - distinct.begin()));
   EXPECT_EQ(checks::coincident_pairs(std::vector<Vec3>(100000, Vec3::Ones()), 1e-6).size(), 99999U);
+}
+
+// A quarter of a cylinder, R = 1, 16 cells around and 16 along 1 m, each of h² = π/2 / 256 and leaning by 45°: h²/(R t)
+// is 0.6 for t = .01 and 60 for 1e-4.
+TEST(ModelCheck, SkewShellsTooLargeForTheirCurvature) {
+  const auto cylinder = [](double t, double lean, bool triangles) {
+    Model model = plate(16);
+    model.shell_sections[0].thickness = t;
+    for (Vec3& x : model.nodes) {
+      const double angle = 0.5 * std::numbers::pi * x.x();
+      x = Vec3(std::cos(angle), x.y() + lean * angle, std::sin(angle));
+    }
+    if (!triangles) return model;
+    std::vector<Element> halves;
+    for (const Element& element : model.elements) {
+      const auto& q = std::get<Quad4>(element);
+      halves.push_back(Tria3{.nodes = {q.nodes[0], q.nodes[1], q.nodes[3]}, .id = q.id});
+      halves.push_back(Tria3{.nodes = {q.nodes[1], q.nodes[2], q.nodes[3]}, .id = q.id + 256});
+    }
+    model.elements = halves;
+    return model;
+  };
+  constexpr double angle = std::numbers::pi / 32.0;
+  const double chord = 2.0 * std::sin(0.5 * angle);
+  for (const bool triangles : {false, true}) {
+    const std::vector<Finding> findings = check_geometry(cylinder(1e-4, triangles ? -1.0 : 1.0, triangles));
+    const Finding* const finding = found(findings, "curvature");
+    ASSERT_NE(finding, nullptr);
+    EXPECT_EQ(finding->count, triangles ? 512 : 256);
+    const double apart = std::hypot(chord, triangles ? angle : angle - 1.0 / 16.0);  // the nearest that turn
+    const double area = (triangles ? 0.5 : 1.0) * chord / 16.0;
+    EXPECT_NEAR(finding->value, area * std::sin(angle) / apart / 1e-4, 0.02 * finding->value);  // normals: O(h²)
+    EXPECT_EQ(found(check_geometry(cylinder(1e-2, triangles ? -1.0 : 1.0, triangles)), "curvature"), nullptr);
+    EXPECT_EQ(found(check_geometry(cylinder(1e-4, 0.0, triangles)), "curvature"), nullptr) << "lines along and across";
+  }
+  Model leaning = plate(4);  // flat, however thin and skew
+  leaning.shell_sections[0].thickness = 1e-9;
+  for (Vec3& x : leaning.nodes) x.x() += x.y();
+  EXPECT_EQ(found(check_geometry(leaning), "curvature"), nullptr);
 }
 
 TEST(ModelCheck, FortyThousandQuadsTakeLessThanASecond) {
