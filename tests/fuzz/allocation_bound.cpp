@@ -14,11 +14,12 @@ namespace {
 constexpr std::int64_t least = 4 << 20;
 
 // One thread reads; the hooks must not allocate.
-std::int64_t live = 0, bound = 0;
+std::int64_t live = 0, bound = 0, single_bound = 0;
 bool counting = false;
 
 void allocated(const volatile void*, std::size_t size) {
-  if (!counting || (live += static_cast<std::int64_t>(size)) <= bound) return;
+  const auto bytes = static_cast<std::int64_t>(size);
+  if (!counting || ((live += bytes) <= bound && bytes <= single_bound)) return;
   counting = false;
   constexpr std::string_view text = "ERROR: the reader holds more than its bound: a multiple of the case, and 4 MiB\n";
   [[maybe_unused]] const auto written = ::write(STDERR_FILENO, text.data(), text.size());
@@ -35,7 +36,9 @@ void freed(const volatile void* memory) {
 AllocationBound::AllocationBound(std::size_t case_size, int times) {
   [[maybe_unused]] static const int installed = __sanitizer_install_malloc_and_free_hooks(allocated, freed);
   live = 0;
-  bound = std::max(least, times * static_cast<std::int64_t>(case_size));
+  const auto bytes = static_cast<std::int64_t>(case_size);
+  bound = std::max(least, times * bytes);
+  single_bound = std::max(least, 100 * bytes);
   counting = true;
 }
 

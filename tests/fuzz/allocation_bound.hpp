@@ -4,8 +4,9 @@
 
 namespace tenon::fuzz {
 
-/// While one lives, the program ends as at a fault once it holds more memory than at the beginning by `times`
-/// the case, or by 4 MiB for small ones: what a file declares must not be believed before its content is there.
+/// While one lives, the program ends as at a fault at a single allocation of more than 100 times the case, and once it
+/// holds more memory than at the beginning by `times` the case; small cases may take 4 MiB. What a file declares must
+/// not be believed before its content is there.
 class AllocationBound {
  public:
   AllocationBound(std::size_t case_size, int times);
