@@ -80,6 +80,24 @@ const std::vector<int>& Draft::element_set(const std::string& name, const Place&
   return find_set(element_sets, "element", name, place);
 }
 
+const DraftMaterial& Draft::material(const Block& section, const std::string& name) {
+  const auto found = materials.find(upper(name));
+  if (found == materials.end()) {
+    std::vector<std::string> names;
+    for (const auto& [key, m] : materials) names.push_back(key);
+    const std::string near = near_miss(upper(name), names);
+    section.refuse(name.empty() ? fmt::format("*{} names no material", section.keyword)
+                                : fmt::format("there is no material '{}'", name),
+                   near.empty() ? "Define it by *MATERIAL" : fmt::format("Did you mean '{}'?", near));
+  }
+  if (!(found->second.material.E > 0.0) && found->second.isotropic)
+    section.refuse(fmt::format("material '{}' has no *ELASTIC", name), "Give its E and ν");
+  if (found->second.varies)
+    losses.add_physical(fmt::format("*MATERIAL {}", name),
+                        "it varies with temperature, and its first numbers alone are read", section.place);
+  return found->second;
+}
+
 std::vector<int> Draft::nodes_of(int element) const {
   const ListedElement& e = elements[static_cast<std::size_t>(element)];
   const auto first = element_nodes.begin() + e.first_node;

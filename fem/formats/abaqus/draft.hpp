@@ -87,6 +87,8 @@ struct Draft {
   const std::vector<int>& element_set(const std::string& name, const Place& place) const;
   /// Nodes of an element of the deck.
   std::vector<int> nodes_of(int element) const;
+  /// The *MATERIAL that a section names; throws InputError with near misses.
+  const DraftMaterial& material(const Block& section, const std::string& name);
   /// Axes (columns) that dofs of a node are given in.
   const Mat3& axes(int node) const;
 };

@@ -4,8 +4,10 @@
 #include <functional>
 #include <map>
 #include <set>
+#include <span>
 
 #include "fem/formats/abaqus/beam_sections.hpp"
+#include "fem/formats/abaqus/shell_sections.hpp"
 
 namespace tenon::fem::abaqus {
 namespace {
@@ -54,25 +56,6 @@ struct SectionReader {
     }
   }
 
-  const DraftMaterial& material(const Block& block) const {
-    const std::string name = block.value("MATERIAL");
-    const auto found = draft.materials.find(upper(name));
-    if (found == draft.materials.end()) {
-      std::vector<std::string> names;
-      for (const auto& [key, m] : draft.materials) names.push_back(key);
-      const std::string near = near_miss(upper(name), names);
-      block.refuse(name.empty() ? fmt::format("*{} names no material", block.keyword)
-                                : fmt::format("there is no material '{}'", name),
-                   near.empty() ? "Define it by *MATERIAL" : fmt::format("Did you mean '{}'?", near));
-    }
-    if (!(found->second.material.E > 0.0) && found->second.isotropic)
-      block.refuse(fmt::format("material '{}' has no *ELASTIC", name), "Give its E and ν");
-    if (found->second.varies)
-      draft.losses.add_physical(fmt::format("*MATERIAL {}", name),
-                                "it varies with temperature, and its first numbers alone are read", block.place);
-    return found->second;
-  }
-
   int add(const Material& m) {
     const auto [entry, added] = material_index.try_emplace(m.name, static_cast<int>(model().materials.size()));
     if (added) model().materials.push_back(m);
@@ -95,7 +78,7 @@ struct SectionReader {
 
 void SectionReader::beams(const Block& block) {
   const bool general = block.keyword == "BEAM GENERAL SECTION";
-  const DraftMaterial* named = general ? nullptr : &material(block);
+  const DraftMaterial* named = general ? nullptr : &draft.material(block, block.value("MATERIAL"));
   DraftBeamSection s = beam_section(block, named ? named->material.nu : 0.0);
   if (named && !named->isotropic) s.unread = fmt::format("material '{}' that is not isotropic", named->material.name);
   if (!s.unread.empty()) {
@@ -136,62 +119,22 @@ void SectionReader::beams(const Block& block) {
 }
 
 void SectionReader::shells(const Block& block) {
-  const DraftMaterial& named = material(block);
-  std::string unread;
-  if (block.has("COMPOSITE")) unread = "COMPOSITE";
-  if (!named.isotropic) unread = fmt::format("material '{}' that is not isotropic", named.material.name);
-  if (const std::string offset = block.upper_value("OFFSET"); !offset.empty() && parse_real(offset) != 0.0)
-    unread = fmt::format("OFFSET={}", offset);
-  if (block.has("NODAL THICKNESS")) unread = "NODAL THICKNESS";
-  if (!unread.empty()) {
-    draft.losses.add_physical("*SHELL SECTION", fmt::format("{} is not read", unread), block.place);
+  DraftShellSection s = shell_section(draft, block);
+  if (!s.unread.empty()) {
+    draft.losses.add_physical("*SHELL SECTION", fmt::format("{} is not read", s.unread), block.place);
     each(block, [](const ListedElement&) {});
     return;
   }
-  DataLines line(block);
-  if (!line.next()) block.refuse("*SHELL SECTION has no data line", "Give the thickness");
-  const int section = static_cast<int>(model().shell_sections.size());
-  model().shell_sections.push_back({.name = block.value("ELSET"), .thickness = line.positive(0, "the thickness")});
-  const int material_index = add(named.material);
+  const Quad4 like{.section = static_cast<int>(model().shell_sections.size()), .material = add(s.material)};
+  model().shell_sections.push_back(std::move(s.section));
   each(block, [&](const ListedElement& e) {
     if (type_of(e).type.formulation != Formulation::shell) wrong_type(block, e);
-    const int* const n = &draft.element_nodes[static_cast<std::size_t>(e.first_node)];
-    const auto quad = [&](int a, int b, int c, int d) {
-      model().elements.emplace_back(Quad4{{a, b, c, d}, section, material_index, e.id});
-    };
-    const auto triangle = [&](int a, int b, int c) {
-      model().elements.emplace_back(Tria3{{a, b, c}, section, material_index, e.id});
-    };
-    // corners first, then the middles of the edges behind them, then the centre
-    switch (e.nodes) {
-      case 3:
-        triangle(n[0], n[1], n[2]);
-        break;
-      case 4:
-        quad(n[0], n[1], n[2], n[3]);
-        break;
-      case 6:
-        triangle(n[0], n[3], n[5]);
-        triangle(n[3], n[1], n[4]);
-        triangle(n[5], n[4], n[2]);
-        triangle(n[3], n[4], n[5]);
-        draft.losses.add(type_of(e).name, "split into four triangles of three nodes");
-        break;
-      case 8:
-        triangle(n[0], n[4], n[7]);
-        triangle(n[1], n[5], n[4]);
-        triangle(n[2], n[6], n[5]);
-        triangle(n[3], n[7], n[6]);
-        quad(n[4], n[5], n[6], n[7]);
-        draft.losses.add(type_of(e).name, "split into four triangles at its corners and a quadrilateral between them");
-        break;
-      default:
-        quad(n[0], n[4], n[8], n[7]);
-        quad(n[4], n[1], n[5], n[8]);
-        quad(n[8], n[5], n[2], n[6]);
-        quad(n[7], n[8], n[6], n[3]);
-        draft.losses.add(type_of(e).name, "split into four quadrilaterals of four nodes");
-    }
+    const std::span nodes(&draft.element_nodes[static_cast<std::size_t>(e.first_node)],
+                          static_cast<std::size_t>(e.nodes));
+    Quad4 shell = like;
+    shell.id = e.id;
+    if (const std::string split = add_shell(model(), nodes, shell); !split.empty())
+      draft.losses.add(type_of(e).name, split);
   });
 }
 
@@ -327,7 +270,7 @@ void SectionReader::solids(const Block& block) {
     DataLines line(block);
     BeamSection s{.name = block.value("ELSET"), .A = 1.0};
     if (line.next() && !line.at(0).empty()) s.A = line.positive(0, "the area");
-    const DraftMaterial& named = material(block);
+    const DraftMaterial& named = draft.material(block, block.value("MATERIAL"));
     if (!named.isotropic)
       draft.losses.add_physical("*SOLID SECTION",
                                 fmt::format("material '{}' that is not isotropic", named.material.name), block.place);
