@@ -62,7 +62,8 @@ struct DraftMaterial {
   Material material;
   Place place;
   bool isotropic = true;
-  bool varies = false;  ///< with temperature: the first line of its numbers is taken
+  std::optional<Ply> lamina = {};  ///< of a material that is not: what a thin layer of it needs, but its density
+  bool varies = false;             ///< with temperature: the first line of its numbers is taken
 };
 
 struct Draft {
@@ -93,10 +94,14 @@ struct Draft {
   const Mat3& axes(int node) const;
 };
 
-/// Axes (columns) of the *ORIENTATION that a block names; nothing when it is of a kind that is not read (cylindrical,
+/// Axes (columns) of the *ORIENTATION of that name; nothing when it is of a kind that is not read (cylindrical,
 /// by nodes or offsets). Throws InputError for a name that is not defined, with near misses, and for axes that are
 /// none.
-std::optional<Mat3> orientation(const Draft& draft, const Block& user);
+std::optional<Mat3> orientation(const Draft& draft, const Block& user, const std::string& name);
+
+/// The axis about which the second line of that *ORIENTATION turns the others; 0 where it has none. Shells take it for
+/// their normal.
+long orientation_axis(const Draft& draft, const Block& user, const std::string& name);
 
 // The steps, in the order of their calls.
 void read_nodes(Draft& draft);       ///< *NODE

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <array>
+#include <cmath>
 #include <utility>
 
 #include "fem/formats/abaqus/draft.hpp"
@@ -7,10 +9,36 @@
 namespace tenon::fem::abaqus {
 namespace {
 
+/// `place`: where E1, E2, ν12, G12, G13, G23 stand among the numbers of one temperature, eight a line.
+void lamina(const Block& block, const std::array<std::size_t, 6>& place, DraftMaterial& current) {
+  constexpr std::array names{"E1", "E2", "ν12", "G12", "G13", "G23"};
+  const auto read = [&](DataLines& line) {
+    std::array<double, 6> values{};
+    std::size_t first = 0;  // of the line at hand
+    for (std::size_t i = 0; i < 6; ++i) {
+      if (place[i] >= first + 8) {
+        first += 8;
+        if (!line.next()) block.refuse(fmt::format("*ELASTIC has no {}", names[i]), "Add the line that holds it");
+      }
+      values[i] = i == 2 ? line.real(place[i] - first, names[i]) : line.positive(place[i] - first, names[i]);
+    }
+    return values;
+  };
+  DataLines line(block);
+  if (!line.next()) block.refuse("*ELASTIC has no data line", "Give E1, E2 and ν12");
+  const auto [E1, E2, nu12, G12, G13, G23] = read(line);
+  if (!(nu12 * nu12 * E2 < E1))
+    line.fail(place[2], fmt::format("a ν12 below √(E1/E2) = {:.4g} in size", std::sqrt(E1 / E2)));
+  current.lamina = {.E1 = E1, .E2 = E2, .nu12 = nu12, .G12 = G12, .G13 = G13, .G23 = G23};
+  while (line.next()) current.varies |= read(line) != std::array{E1, E2, nu12, G12, G13, G23};
+}
+
 void elastic(const Block& block, DraftMaterial& current) {
   const std::string type = block.upper_value("TYPE");
   if (!type.empty() && type != "ISO" && type != "ISOTROPIC") {
     current.isotropic = false;
+    if (type == "LAMINA") lamina(block, {0, 1, 2, 3, 4, 5}, current);
+    if (type == "ENGINEERING CONSTANTS") lamina(block, {0, 1, 3, 6, 7, 8}, current);
     return;
   }
   DataLines line(block);

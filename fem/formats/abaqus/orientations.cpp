@@ -9,8 +9,7 @@
 namespace tenon::fem::abaqus {
 namespace {
 
-const Block& named(const Draft& draft, const Block& user) {
-  const std::string name = user.value("ORIENTATION");
+const Block& named(const Draft& draft, const Block& user, const std::string& name) {
   std::vector<std::string> names;
   for (const Block& block : draft.text.blocks) {
     if (block.keyword != "ORIENTATION") continue;
@@ -22,12 +21,24 @@ const Block& named(const Draft& draft, const Block& user) {
               near.empty() ? "Define it by *ORIENTATION" : fmt::format("Did you mean '{}'?", near));
 }
 
+/// Of the second data line.
+long turning_axis(const DataLines& line) {
+  const long axis = line.at(0).empty() ? 1 : line.integer(0, "an axis 1 to 3");
+  if (axis < 1 || axis > 3) line.fail(0, "an axis 1 to 3");
+  return axis;
+}
+
 }  // namespace
+
+long orientation_axis(const Draft& draft, const Block& user, const std::string& name) {
+  DataLines line(named(draft, user, name));
+  return line.next() && line.next() ? turning_axis(line) : 0;
+}
 
 // points a, b and perhaps the origin c: x along a − c, b − c in the x-y plane; then an axis number and an angle about
 // it
-std::optional<Mat3> orientation(const Draft& draft, const Block& user) {
-  const Block& block = named(draft, user);
+std::optional<Mat3> orientation(const Draft& draft, const Block& user, const std::string& name) {
+  const Block& block = named(draft, user, name);
   const std::string system = block.upper_value("SYSTEM"), definition = block.upper_value("DEFINITION");
   if ((!system.empty() && !system.starts_with("R")) || (!definition.empty() && definition != "COORDINATES"))
     return std::nullopt;
@@ -42,8 +53,7 @@ std::optional<Mat3> orientation(const Draft& draft, const Block& user) {
   Mat3 axes;
   axes << a.normalized(), z.normalized().cross(a.normalized()), z.normalized();
   if (!line.next()) return axes;
-  const long about = line.at(0).empty() ? 1 : line.integer(0, "an axis 1 to 3");
-  if (about < 1 || about > 3) line.fail(0, "an axis 1 to 3");
+  const long about = turning_axis(line);
   const double angle = line.real(1, "an angle in degrees", 0.0) * std::numbers::pi / 180.0;
   const Vec3 axis = axes.col(about - 1);
   return Mat3(Eigen::AngleAxisd(angle, axis).toRotationMatrix() * axes);

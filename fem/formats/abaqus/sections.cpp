@@ -22,7 +22,7 @@ const std::map<std::string, std::set<std::string>> section_parameters{
     {"BEAM GENERAL SECTION", {"ELSET", "MATERIAL", "SECTION", "DENSITY", "POISSON", "ZERO"}},
     {"SHELL SECTION",
      {"ELSET", "MATERIAL", "COMPOSITE", "OFFSET", "NODAL THICKNESS", "ORIENTATION", "CONTROLS", "POISSON",
-      "SECTION INTEGRATION", "TEMPERATURE", "THICKNESS MODULUS"}},
+      "SECTION INTEGRATION", "TEMPERATURE", "THICKNESS MODULUS", "LAYUP", "SYMMETRIC"}},
     {"MASS", {"ELSET", "ALPHA", "COMPOSITE"}},
     {"SPRING", {"ELSET", "NONLINEAR", "COMPLEX STIFFNESS", "ORIENTATION", "DEPENDENCIES", "RTOL"}}};
 
@@ -125,12 +125,15 @@ void SectionReader::shells(const Block& block) {
     each(block, [](const ListedElement&) {});
     return;
   }
-  const Quad4 like{.section = static_cast<int>(model().shell_sections.size()), .material = add(s.material)};
+  const Quad4 like{.section = static_cast<int>(model().shell_sections.size()),
+                   .material = add(s.material),
+                   .material_axis = s.material_axis};
   model().shell_sections.push_back(std::move(s.section));
   each(block, [&](const ListedElement& e) {
     if (type_of(e).type.formulation != Formulation::shell) wrong_type(block, e);
     const std::span nodes(&draft.element_nodes[static_cast<std::size_t>(e.first_node)],
                           static_cast<std::size_t>(e.nodes));
+    if (s.normal) check_normal(model(), nodes, *s.normal, block, e.id);
     Quad4 shell = like;
     shell.id = e.id;
     if (const std::string split = add_shell(model(), nodes, shell); !split.empty())
@@ -192,7 +195,7 @@ SpringBlock spring_block(Draft& draft, const Block& block, bool axial) {
     draft.losses.add_physical("*SPRING", "stiffness over elongation, temperature or frequency is not read",
                               block.place);
   if (block.has("ORIENTATION")) {
-    spring.axes = orientation(draft, block);
+    spring.axes = orientation(draft, block, block.value("ORIENTATION"));
     if (!spring.axes)
       draft.losses.add_physical("*SPRING", "axes that turn from point to point are not read", block.place);
   }

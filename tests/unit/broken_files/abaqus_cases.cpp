@@ -147,7 +147,7 @@ std::vector<Case> section_cases() {
       lines("shell off its nodes",
             "*ELEMENT, TYPE=S3, ELSET=T\n11, 1, 2, 3\n*SHELL SECTION, ELSET=T, MATERIAL=M, "
             "OFFSET=0.5\n0.01\n",
-            {"OFFSET=0.5 is not read"}, {{18, 0}}),
+            {"OFFSET=0.5, by which Abaqus moves"}, {{18, 0}}),
       lines("shell with a mass of its own",
             "*ELEMENT, TYPE=S3, ELSET=T\n11, 1, 2, 3\n*SHELL SECTION, ELSET=T, MATERIAL=M, DENSITY=5\n0.01\n",
             {"*SHELL SECTION, DENSITY (1 found", "is not read"}, {{18, 0}}),

@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <numbers>
+
 #include "fem/error.hpp"
 #include "fem/formats/deck.hpp"
 #include "fem/formats/read_mesh.hpp"
@@ -346,4 +349,78 @@ TEST_F(Abaqus, AMeshOrADeckByItsSections) {
   EXPECT_FALSE(is_deck(mesh));
   EXPECT_EQ(read_deck(deck, false).model.elements.size(), 3U);
   EXPECT_EQ(read_mesh(mesh).cells.size(), 1U);
+}
+
+namespace {
+
+/// A square of one shell along x and y with a section, its materials and orientations behind it.
+std::string shell_deck(const std::string& section, const std::string& nodes = "1, 2, 3, 4") {
+  return "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 1, 1, 0\n4, 0, 1, 0\n*ELEMENT, TYPE=S4, ELSET=SKIN\n7, " + nodes +
+         "\n*MATERIAL, NAME=PLY\n*ELASTIC, TYPE=LAMINA\n130E9, 9E9, .3, 5E9, 4E9, 3E9\n*DENSITY\n1600.\n"
+         "*MATERIAL, NAME=FOAM\n*ELASTIC\n1E8, .25\n*DENSITY\n50.\n"
+         "*MATERIAL, NAME=BLOCK\n*ELASTIC, TYPE=ENGINEERING CONSTANTS\n"
+         "130E9, 9E9, 8E9, .3, .31, .4, 5E9, 4E9\n3E9\n*DENSITY\n1600.\n"
+         "*MATERIAL, NAME=FULL\n*ELASTIC, TYPE=ANISOTROPIC\n1., 1., 1.\n"
+         "*ORIENTATION, NAME=PROJECTED\n0., 1., 0., -1., 0., 0.\n3, 90.\n"
+         "*ORIENTATION, NAME=FIRST\n1., 0., 0., 0., 1., 0.\n1, 0.\n"
+         "*ORIENTATION, NAME=ALONG\n1., 0., 0., 0., 1., 0.\n*ORIENTATION, NAME=ACROSS\n0., 1., 0., -1., 0., 0.\n"
+         "*ORIENTATION, NAME=UP\n1., 0., 0., 0., 0., 1.\n*SHELL SECTION, ELSET=SKIN, " +
+         section + "\n";
+}
+
+}  // namespace
+
+TEST_F(Abaqus, LayersWithAnglesAboutAProjectedDirection) {
+  const Model model =
+      read(shell_deck("COMPOSITE, ORIENTATION=PROJECTED, SYMMETRIC\n.001, 3, PLY, 30.\n.01,, FOAM")).model;
+  const ShellSection& section = model.shell_sections.at(0);
+  ASSERT_EQ(section.plies.size(), 4U);
+  EXPECT_DOUBLE_EQ(section.thickness, 0.022);
+  for (const std::size_t k : {0U, 3U}) {
+    const Ply& ply = section.plies[k];
+    EXPECT_EQ((std::array{ply.thickness, ply.E1, ply.E2, ply.nu12, ply.G12, ply.G13, ply.G23, ply.rho}),
+              (std::array{0.001, 130e9, 9e9, 0.3, 5e9, 4e9, 3e9, 1600.0}));
+    EXPECT_DOUBLE_EQ(ply.angle, std::numbers::pi / 6.0);
+  }
+  EXPECT_EQ(section.plies[1].E1, 1e8);
+  EXPECT_EQ(section.plies[1].G13, 1e8 / 2.5);
+  EXPECT_EQ(section.plies[2].rho, 50.0);
+  const auto& quad = std::get<Quad4>(model.elements.at(0));
+  EXPECT_LT((quad.material_axis - Vec3(-1, 0, 0)).norm(), 1e-15) << "y, turned by 90° about z";
+}
+
+TEST_F(Abaqus, LayersWithOrientationsOfTheirOwn) {
+  const auto plies = [&](const std::string& layers) {
+    return read(shell_deck("COMPOSITE\n" + layers)).model.shell_sections.at(0).plies;
+  };
+  const std::vector<Ply> both = plies(".001,, PLY, ACROSS\n.002,, BLOCK, ALONG\n.01,, FOAM, UP");
+  ASSERT_EQ(both.size(), 3U);
+  EXPECT_EQ(both[0].angle, 0.0) << "the first of them is the section's direction";
+  EXPECT_DOUBLE_EQ(both[1].angle, -std::numbers::pi / 2.0);
+  EXPECT_EQ((std::array{both[1].E2, both[1].nu12, both[1].G12, both[1].G13, both[1].G23}),
+            (std::array{9e9, 0.3, 5e9, 4e9, 3e9}));
+  refused(shell_deck("COMPOSITE\n.001,, PLY, ACROSS", "4, 3, 2, 1"), "deck.inp:39",
+          "element 7 does not have axis 3 of its ORIENTATION as its normal");
+}
+
+TEST_F(Abaqus, OneLayerAlongAnOrientation) {
+  const Model model = read(shell_deck("MATERIAL=PLY, ORIENTATION=PROJECTED\n.003", "4, 3, 2, 1")).model;
+  ASSERT_EQ(model.shell_sections.at(0).plies.size(), 1U);
+  EXPECT_EQ(model.shell_sections[0].plies[0].thickness, 0.003);
+  EXPECT_EQ(model.shell_sections[0].plies[0].E2, 9e9);
+}
+
+TEST_F(Abaqus, ShellsWhoseDirectionsAreNotKnown) {
+  const std::string place = "deck.inp:39";
+  refused(shell_deck("MATERIAL=PLY\n.003"), place, "without ORIENTATION");
+  refused(shell_deck("MATERIAL=PLY, ORIENTATION=FIRST\n.003"), place, "whose axis 3 is not the normal");
+  refused(shell_deck("MATERIAL=FULL, ORIENTATION=PROJECTED\n.003"), place, "'FULL', neither isotropic nor a lamina");
+  refused(shell_deck("COMPOSITE\n.001,, PLY, ALONG\n.001,, PLY, UP"), place, "'UP' that does not share axis 3");
+  refused(shell_deck("COMPOSITE\n.001,, PLY, ALNOG"), place, "'ALNOG'");
+  refused(shell_deck("COMPOSITE\n.001,, FOAMY"), place, "Did you mean 'FOAM'?");
+  refused(shell_deck("COMPOSITE\n0.,, FOAM"), "deck.inp:40", "the thickness of the layer");
+  refused(shell_deck("COMPOSITE"), place, "has no data line");
+  refused(shell_deck("MATERIAL=FOAM, OFFSET=SPOS\n.003"), place, "OFFSET=SPOS");
+  refused("*NODE\n1, 0, 0, 0\n*MATERIAL, NAME=M\n*ELASTIC, TYPE=LAMINA\n1., 4., .6, 1., 1., 1.\n", "deck.inp:5",
+          "√(E1/E2) = 0.5");
 }
