@@ -247,6 +247,9 @@ void add_elements(const Model& model, std::span<const Vec3> directors, const Dof
   if (fault) rethrow(fault, model.source);
 }
 
+/// Eigen's assignment would copy what a function returns.
+void take(SparseMatrix& into, SparseMatrix from) { into.swap(from); }
+
 /// Rows that got neither stiffness nor mass are taken out (a port's rows stay, so that reduction can say what is
 /// missing).
 void drop_empty_rows(const Model& model, Structure& s) {
@@ -297,8 +300,8 @@ void drop_empty_rows(const Model& model, Structure& s) {
     result.setFromTriplets(entries.begin(), entries.end());
     return result;
   };
-  s.K = restrict(s.K);
-  s.M = restrict(s.M);
+  take(s.K, restrict(s.K));
+  take(s.M, restrict(s.M));
   map.free = std::move(free);
 }
 
@@ -344,14 +347,14 @@ Structure assemble(const Model& model) {
     LowerTriangle K = lower_zeros(elements, s.dofs.n_free());
     Beside beside = nothing_beside();
     add_elements(model, directors, s.dofs, elements, &ElementMatrices::K, K, beside);
-    s.K = without_zeros(std::move(K), std::move(beside));
+    take(s.K, without_zeros(std::move(K), std::move(beside)));
   }
   // Mass acts, but for offset points, where stiffness does: it grows in the entries that K has kept. The elements are
   // computed anew for it, which costs less than holding both patterns in full.
   LowerTriangle M = zeros_of_pattern(s.K);
   Beside beside = nothing_beside();
   add_elements(model, directors, s.dofs, elements, &ElementMatrices::M, M, beside);
-  s.M = without_zeros(std::move(M), std::move(beside));
+  take(s.M, without_zeros(std::move(M), std::move(beside)));
   for (const auto& part : model.matrix_parts) {
     s.K = SparseMatrix(s.K + over_free_dofs(*part, part->K, s.dofs));
     s.M = SparseMatrix(s.M + over_free_dofs(*part, part->M, s.dofs));
