@@ -135,6 +135,36 @@ std::string port_lines(const fem::Mesh& mesh, const std::vector<bool>& held, con
   return text + fmt::format("      root: {}\n", any_held ? free_point(mesh, held) : "{nearest: [0, 0, 0]}");
 }
 
+/// Sets of lines along edges of shells, as comments: stiffeners, or where a shell is held or joined.
+std::string edge_lines(const fem::Mesh& mesh, const std::filesystem::path& file) {
+  using Edge = std::pair<int, int>;
+  const auto edge = [](int a, int b) { return Edge(std::min(a, b), std::max(a, b)); };
+  std::set<Edge> edges;
+  for (const fem::CellBlock& block : mesh.cells)
+    if (fem::dimension(block.type) == 2) {
+      const int n = fem::node_count(block.type), corners = n == 3 || n == 6 ? 3 : 4;
+      for (std::size_t first = 0; first < block.nodes.size(); first += static_cast<std::size_t>(n))
+        for (int i = 0; i < corners; ++i)
+          edges.insert(edge(block.nodes[first + static_cast<std::size_t>(i)],
+                            block.nodes[first + static_cast<std::size_t>((i + 1) % corners)]));
+    }
+  std::string text;
+  for (const auto& [set, blocks] : mesh.cell_sets) {
+    bool along_edges = dimension_of(mesh, blocks) == 1;
+    for (std::size_t b = 0; b < blocks.size() && along_edges; ++b) {
+      const auto width = static_cast<std::size_t>(fem::node_count(mesh.cells[b].type));
+      for (const int c : blocks[b]) {
+        const int* const line = &mesh.cells[b].nodes[static_cast<std::size_t>(c) * width];
+        along_edges = along_edges && width > 1 && edges.contains(edge(line[0], line[1]));
+      }
+    }
+    if (along_edges && !mesh.point_sets.contains(set))
+      text += fmt::format("      # {}: {{set: {}}}  # lines along edges: a port, if it has no section above\n",
+                          quoted(as_word(set), file), quoted(set, file));
+  }
+  return text;
+}
+
 /// What a deck brings along, and what it holds: comments.
 std::string deck_lines(const fem::Model& model, const std::filesystem::path& file) {
   std::string text = "    # sections, materials and masses are the deck's own: `tenon info` lists them\n";
@@ -151,7 +181,7 @@ std::string deck_lines(const fem::Model& model, const std::filesystem::path& fil
 }
 
 /// What only the user knows stands in capitals; `tenon check` points at each until it is filled in.
-std::string scene_for(const fem::Mesh& mesh, const std::vector<bool>& held, const std::string& contents,
+std::string scene_for(const fem::Mesh& mesh, const std::string& contents, const std::string& ports,
                       const std::filesystem::path& file, const std::filesystem::path& scene) {
   Eigen::AlignedBox3d box;
   for (const fem::Vec3& point : mesh.points) box.extend(point);
@@ -178,21 +208,23 @@ std::string scene_for(const fem::Mesh& mesh, const std::vector<bool>& held, cons
       "inputs: {{}}                      # e.g. push: {{at: {5}.root, force: z}}\n"
       "outputs: {{}}                     # e.g. tip: {{at: {5}.root, acceleration: [x, y, z]}}\n"
       "requires: {{band: [0, BAND Hz], tolerance: 1e-3}}\n",
-      file.filename().string(), mesh.points.size(), size.x(), size.y(), size.z(), body, contents,
-      port_lines(mesh, held, file), quoted(from_scene.generic_string(), file));
+      file.filename().string(), mesh.points.size(), size.x(), size.y(), size.z(), body, contents, ports,
+      quoted(from_scene.generic_string(), file));
 }
 
 std::string scene_of(const std::filesystem::path& file, InputKind kind, const std::filesystem::path& scene) {
   if (kind == InputKind::deck) {
     const fem::Deck deck = fem::read_deck(file, true);
-    return scene_for(deck.mesh, held_points(deck.mesh, deck.model), deck_lines(deck.model, file), file, scene);
+    return scene_for(deck.mesh, deck_lines(deck.model, file),
+                     port_lines(deck.mesh, held_points(deck.mesh, deck.model), file), file, scene);
   }
   const fem::Mesh mesh = fem::read_mesh(file);
-  return scene_for(mesh, std::vector<bool>(mesh.points.size(), false),
+  return scene_for(mesh,
                    "    material: aluminium         # or steel, titanium, {E: ..., nu: ..., rho: ...}\n"
                    "    sections:                   # one for each set of cells\n" +
                        section_lines(mesh, file),
-                   file, scene);
+                   port_lines(mesh, std::vector<bool>(mesh.points.size(), false), file) + edge_lines(mesh, file), file,
+                   scene);
 }
 
 }  // namespace
