@@ -41,6 +41,7 @@ void check_curvature(const Model& model, const CheckLimits& limits, std::vector<
   Places places;
   const auto look = [&](const auto& shell) {
     constexpr std::size_t size = std::tuple_size_v<decltype(shell.nodes)>;
+    if (static_cast<std::size_t>(shell.section) >= model.shell_sections.size()) return;  // a model under way
     std::array<Vec3, size> x, n;
     for (std::size_t i = 0; i < size; ++i) {
       const auto node = static_cast<std::size_t>(shell.nodes[i]);
