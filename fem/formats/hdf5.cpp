@@ -122,6 +122,8 @@ Handle open_attribute(hid_t file, const std::string& object, const std::string& 
 }  // namespace
 
 File::File(const std::filesystem::path& path) : name_(path.filename().string()) {
+  [[maybe_unused]] static const herr_t no_farewell =
+      H5dont_atexit();  // which complains of what damaged files left open
   const Quiet quiet;
   id_ = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (id_ < 0) fault(fmt::format("'{}' is no HDF5 file", name_));
