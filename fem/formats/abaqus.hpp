@@ -28,7 +28,9 @@ struct AbaqusOptions {
 ///
 /// Sections. The local 1-direction n1 becomes the orientation (y), n2 = t × n1 is z: I11 → Iy, I22 → Iz. CIRC with one
 /// number has a radius (Abaqus), with two a diameter in each direction (CalculiX). Shear coefficients are Cowper's,
-/// those of the programs differ in the third digit.
+/// those of the programs differ in the third digit. COMPOSITE shells and those of LAMINA or ENGINEERING CONSTANTS are
+/// laminates, their direction 1 the projection of an *ORIENTATION whose second line names axis 3; without that line,
+/// and with orientations of the layers' own, for elements across axis 3 alone: else the two programs differ.
 ///
 /// Throws InputError with file, line and column for everything that cannot be understood, and for every keyword that
 /// would change stiffness or mass if it were read past (unless `allow_losses`).
