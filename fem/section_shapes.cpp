@@ -110,8 +110,9 @@ BeamSection box(double b, double h, double t, double nu) { return box(b, h, t, t
 
 BeamSection box(double b, double h, double t_flange, double t_web, double nu) {
   require(t_flange > 0.0 && 2.0 * t_flange < h && t_web > 0.0 && 2.0 * t_web < b,
-          t_flange == t_web ? fmt::format("a box has outer sides {} and {} and wall {}", b, h, t_web)
-                            : fmt::format("a box has outer sides {} and {}, flanges {} and webs {}", b, h, t_flange, t_web));
+          t_flange == t_web
+              ? fmt::format("a box has outer sides {} and {} and wall {}", b, h, t_web)
+              : fmt::format("a box has outer sides {} and {}, flanges {} and webs {}", b, h, t_flange, t_web));
   const double bi = b - 2.0 * t_web, hi = h - 2.0 * t_flange, bm = b - t_web, hm = h - t_flange;
   const double m = bm * t_flange / (hm * t_web), n = bm / hm;
   return {.name = "box",

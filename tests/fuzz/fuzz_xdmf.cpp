@@ -5,6 +5,6 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto files = tenon::fuzz::files_of(tenon::fuzz::text_of(data, size));
   if (files.size() > 1) tenon::fuzz::write("case.bin", files[1]);
-  return tenon::fuzz::read_or_refuse(
-      size, [&] { tenon::fem::parse_xdmf(files[0], "case.xdmf", tenon::fuzz::folder()); });
+  return tenon::fuzz::read_or_refuse(size,
+                                     [&] { tenon::fem::parse_xdmf(files[0], "case.xdmf", tenon::fuzz::folder()); });
 }

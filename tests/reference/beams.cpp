@@ -68,7 +68,8 @@ ReducedBody polynomial_beam(const std::string& name) {
   K /= 70.0;
   Eigen::Matrix<double, 2, 4> Phi;
   Phi << 0, 1, 0, 0, 0, 0, 1, 0;
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(K, Eigen::MatrixXd(M.bottomRightCorner<4, 4>()));
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(K,
+                                                                        Eigen::MatrixXd(M.bottomRightCorner<4, 4>()));
   const Eigen::MatrixXd V = eigen.eigenvectors();
   return planar_beam(name, eigen.eigenvalues().cwiseSqrt(), V.transpose() * M.bottomLeftCorner<4, 2>(), Phi * V);
 }

@@ -13,8 +13,8 @@
 #include "assembly/build.hpp"
 #include "assembly/scene.hpp"
 #include "fem/structure.hpp"
-#include "reduction/subspace.hpp"
 #include "reduction/modes.hpp"
+#include "reduction/subspace.hpp"
 #include "tests/reference/values.hpp"
 
 using namespace tenon;
@@ -62,7 +62,8 @@ Part reduced(const std::string& mesh, const std::string& missing_edge, int modes
     const fem::Dof& dof = s.dofs.free[static_cast<std::size_t>(row)];
     return std::pair(s.nodes[static_cast<std::size_t>(dof.node)].y(), dof.direction);
   });
-  const reduction::Subspace space = reduction::component_modes(s, parts, {Eigen::MatrixXd(s.n(), 0), {}}, {.count = modes});
+  const reduction::Subspace space =
+      reduction::component_modes(s, parts, {Eigen::MatrixXd(s.n(), 0), {}}, {.count = modes});
   return {space.T.transpose() * (s.M.selfadjointView<Eigen::Lower>() * space.T),
           space.T.transpose() * (s.K.selfadjointView<Eigen::Lower>() * space.T),
           static_cast<Eigen::Index>(parts.children.size())};

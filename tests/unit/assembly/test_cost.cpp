@@ -6,8 +6,8 @@
 namespace tenon::assembly {
 namespace {
 
-// "Over a factor of 3 for 5 modes per body, and over a factor of 7 for 10": 3.68 and 7.27, multiplications and additions
-// of bodies k = 1..10 together.
+// "Over a factor of 3 for 5 modes per body, and over a factor of 7 for 10": 3.68 and 7.27, multiplications and
+// additions of bodies k = 1..10 together.
 TEST(Cost, PolynomialsGiveThePapersRatios) {
   const auto ratio = [](int modes) {
     return composite_flops(10, modes).total() / articulated_flops(10, modes).total();

@@ -17,20 +17,13 @@ struct Entry {
   Family (*cases)();
   std::size_t least;  ///< so that no case gets lost
 };
-constexpr Entry table[] = {{"gmsh", gmsh_cases, 300},
-                           {"abaqus", abaqus_cases, 255},
-                           {"nastran", nastran_cases, 100},
-                           {"scene", scene_cases, 60},
-                           {"body", body_cases, 60},
-                           {"vtk", vtk_cases, 200},
-                           {"vtu", vtu_cases, 250},
-                           {"xdmf", xdmf_cases, 120},
-                           {"market", market_cases, 105},
-                           {"labels", label_cases, 55},
-                           {"calculix", calculix_cases, 68},
-                           {"abaqus_matrices", abaqus_matrix_cases, 48},
-                           {"op4", op4_cases, 190},
-                           {"superelement", superelement_cases, 35},
+constexpr Entry table[] = {{"gmsh", gmsh_cases, 300},        {"abaqus", abaqus_cases, 255},
+                           {"nastran", nastran_cases, 100},  {"scene", scene_cases, 60},
+                           {"body", body_cases, 60},         {"vtk", vtk_cases, 200},
+                           {"vtu", vtu_cases, 250},          {"xdmf", xdmf_cases, 120},
+                           {"market", market_cases, 105},    {"labels", label_cases, 55},
+                           {"calculix", calculix_cases, 68}, {"abaqus_matrices", abaqus_matrix_cases, 48},
+                           {"op4", op4_cases, 190},          {"superelement", superelement_cases, 35},
                            {"punch", punch_cases, 75}};
 
 class BrokenFiles : public testing::TestWithParam<Entry> {};

@@ -114,7 +114,7 @@ TEST_F(FiniteMotion, ThePlanTakesWhatTheMotionRequires) {
     EXPECT_EQ(planned["plan"][0]["taken"], level);
     const double foreseen = planned["plan"][0]["deflection_of_size"], turn = 1.2e4 * torque / 1e10 / (8.0 * 1.4e4);
     EXPECT_NEAR(foreseen / (2.0 * turn), 1.0, 1e-5);  // static shapes are kept; beside the flywheel it weighs 4e-8
-    const double most = 1.05 * foreseen;  // the second mode's share
+    const double most = 1.05 * foreseen;              // the second mode's share
     EXPECT_LE(full["deformation"][0]["largest_deflection_of_size"].get<double>(), most);
     const auto tip = [](const json& of) { return of["channels"][0]["last"].get<double>(); };
     EXPECT_NEAR(tip(planned), tip(full), level == std::string("full") ? 1e-12 : most * 10.0);  // its bending left out

@@ -83,8 +83,8 @@ TEST(PortModel, ChannelsCarryNamesAndUnits) {
 }
 
 TEST(PortModel, RigidBodyIsItsMass) {
-  const reduction::ReducedBody hub =
-      reduction::rigid_body("hub", 2.0, {0.1, 0.0, 0.0}, fem::Mat3::Identity(), {{"P", fem::Vec3::Zero(), fem::Mat3::Identity(), {}}});
+  const reduction::ReducedBody hub = reduction::rigid_body("hub", 2.0, {0.1, 0.0, 0.0}, fem::Mat3::Identity(),
+                                                           {{"P", fem::Vec3::Zero(), fem::Mat3::Identity(), {}}});
   const PortModel model = port_model(hub);
   EXPECT_EQ(model.ss.order(), 0);
   EXPECT_LT((model.ss.D + hub.D).norm(), 1e-15);

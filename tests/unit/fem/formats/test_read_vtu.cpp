@@ -162,5 +162,6 @@ TEST(ReadVtu, SaysWhatIsWrong) {
   EXPECT_THAT(with("\"part\"", "\"vtkGhostType\""), HasSubstr("ghosts"));
   EXPECT_THAT(with("format=\"ascii\">1 2<", "format=\"binary\">____AAAA<"), HasSubstr("no base64"));
   EXPECT_THAT(with("format=\"ascii\">1 2<", "format=\"binary\">/////w==<"), HasSubstr("needs 4294967295 more bytes"));
-  EXPECT_THAT(with("Grid\" version=", "Grid\" compressor=\"vtkLZ4DataCompressor\" version="), HasSubstr("vtkZLibDataCompressor"));
+  EXPECT_THAT(with("Grid\" version=", "Grid\" compressor=\"vtkLZ4DataCompressor\" version="),
+              HasSubstr("vtkZLibDataCompressor"));
 }

@@ -17,7 +17,8 @@ constexpr double pi = std::numbers::pi;
 /// Eigenvalues of K − λ M with a definite M.
 Eigen::VectorXd eigenvalues(const Model& model) {
   const Structure s = assemble(model);
-  const Eigen::MatrixXd K = Eigen::MatrixXd(s.K).selfadjointView<Eigen::Lower>(), M = Eigen::MatrixXd(s.M).selfadjointView<Eigen::Lower>();
+  const Eigen::MatrixXd K = Eigen::MatrixXd(s.K).selfadjointView<Eigen::Lower>(),
+                        M = Eigen::MatrixXd(s.M).selfadjointView<Eigen::Lower>();
   return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(K, M, Eigen::EigenvaluesOnly).eigenvalues();
 }
 
