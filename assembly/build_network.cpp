@@ -9,6 +9,7 @@
 #include "assembly/matrix_body.hpp"
 #include "assembly/modal_run.hpp"
 #include "assembly/same_body.hpp"
+#include "fem/model_check.hpp"
 #include "reduction/body_file.hpp"
 #include "reduction/large_motion.hpp"
 
@@ -51,6 +52,9 @@ ReducedBody reduce_fe(const SceneBody& body, const FeSource& fe, const BodyPlan&
     options.progress = progress;
     reduced = reduction::reduce(structure, body.parent_port, options);
     if (options.nonlinear) reduction::add_large_motion(model, structure, reduced);
+    for (const fem::Finding& coarse : fem::check_curvature(model))
+      reduced.certificate.left_out.push_back(fmt::format("bending that the mesh does not resolve: {} {} ({}, ...)",
+                                                         coarse.count, coarse.what, coarse.where.front()));
   }
   reduced.name = body.name;
   reduced.certificate.source.clear();

@@ -39,6 +39,12 @@ std::vector<Finding> check_geometry(const Model& model, const CheckLimits& limit
   return findings;
 }
 
+std::vector<Finding> check_curvature(const Model& model, const CheckLimits& limits) {
+  std::vector<Finding> findings;
+  checks::check_curvature(model, limits, findings);
+  return findings;
+}
+
 std::vector<Finding> check_model(const Model& model, const CheckLimits& limits, Structure* assembled) {
   std::vector<Finding> findings = check_geometry(model, limits);
   checks::check_masses(model, limits, findings);

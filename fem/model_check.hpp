@@ -54,6 +54,9 @@ struct CheckLimits {
 std::vector<Finding> check_mesh(const Mesh& mesh, const CheckLimits& limits = {});
 std::vector<Finding> check_geometry(const Model& model, const CheckLimits& limits = {});
 
+/// Of these, how far shells resolve their curvature: what bounds the accuracy of a body made of them.
+std::vector<Finding> check_curvature(const Model& model, const CheckLimits& limits = {});
+
 /// Checks of the assembled matrices: mass against geometry, K R = 0, singular dofs, dropped dofs. `free` was assembled
 /// from `model` without its supports.
 std::vector<Finding> check_matrices(const Model& model, const Structure& free, const CheckLimits& limits = {});

@@ -159,6 +159,30 @@ ground: [beam.root]
   EXPECT_EQ(from_file["frequencies_hz"], direct["frequencies_hz"]);
 }
 
+// A skew patch of a cylinder, R = 1, cells of about .2 × .2: h²/(R t) = 40 for t = .001.
+TEST_F(Cli, ReduceCertifiesWhatAMeshDoesNotResolve) {
+  std::string points, cells;
+  for (int j = 0; j < 5; ++j)
+    for (int i = 0; i < 5; ++i)
+      points += fmt::format("{} {} {}\n", std::cos(0.2 * i), 0.2 * (j + i), std::sin(0.2 * i));
+  for (int j = 0; j < 4; ++j)
+    for (int i = 0; i < 4; ++i)
+      cells += fmt::format("4 {} {} {} {}\n", 5 * j + i, 5 * j + i + 1, 5 * j + i + 6, 5 * j + i + 5);
+  folder_.write("patch.vtk", "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 25 double\n" +
+                                 points + "CELLS 16 80\n" + cells + "CELL_TYPES 16\n" +
+                                 "9 9 9 9 9 9 9 9 9 9 9 9 9 9 9 9\n");
+  for (const auto& [thickness, said] : {std::pair(0.001, true), {0.1, false}}) {
+    const auto scene = folder_.write(
+        "patch.yaml",
+        fmt::format("units: SI\nbodies: {{patch: {{fe: patch.vtk, material: steel, sections: {{everywhere: "
+                    "{{shell: {}}}}}, ports: {{root: {{nearest: [1, 0, 0]}}}}, reduction: {{basis: "
+                    "craig-bampton, modes: 3}}}}}}\n",
+                    thickness));
+    const std::string certificate = object("reduce " + scene.string() + " --body patch")["certificate"].dump();
+    EXPECT_EQ(certificate.find("bending that the mesh does not resolve: 16 skew shells") != certificate.npos, said);
+  }
+}
+
 TEST_F(Cli, AssembleWritesNamedChannelsWithUnits) {
   const std::string file = (folder_.path() / "system.json").string();
   const json summary = object("assemble " + scene_ + " -o " + file);
