@@ -2,6 +2,8 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <exception>
 #include <numeric>
 #include <optional>
@@ -212,18 +214,23 @@ void add_elements(const Model& model, std::span<const Vec3> directors, const Dof
                   ElementMatrices::Matrix ElementMatrices::*part, LowerTriangle& A, Beside& beside) {
   constexpr std::size_t chunk = 512;
   const std::size_t total = model.elements.size();
-  std::vector<Contribution> contributions(std::min(chunk, total));
+  // A thread that has added its columns starts the next chunk while the other still reads this one: the threads wait
+  // for each other once a chunk, at the end of the loop that computes it.
+  std::array<std::vector<Contribution>, 2> chunks;
+  for (auto& contributions : chunks) contributions.resize(std::min(chunk, total));
   std::exception_ptr fault;
-  std::size_t faulty = total;
+  std::atomic<std::size_t> faulty = total;
 #pragma omp parallel
   {
     const int thread = omp_get_thread_num(), threads = omp_get_num_threads();
     ElementMatrices matrices;
     for (std::size_t first = 0; first < total; first += chunk) {
       const std::size_t count = std::min(chunk, total - first);
-#pragma omp for schedule(static)
+      std::vector<Contribution>& contributions = chunks[first / chunk % 2];
+#pragma omp for schedule(dynamic, 16)
       for (std::size_t i = 0; i < count; ++i) {
         const std::size_t e = first + i;
+        if (e > faulty) continue;
         try {
           element_matrices(model, directors, model.elements[e], matrices);
           transform(map, full_dofs(model.elements[e]), elements.of(e), matrices.*part, contributions[i]);
@@ -235,13 +242,10 @@ void add_elements(const Model& model, std::span<const Vec3> directors, const Dof
           }
         }
       }
-      const bool failed = fault != nullptr;  // the same for all: nobody writes it between the two barriers
-      if (!failed)
-        for (std::size_t i = 0; i < count; ++i)
-          scatter(contributions[i], elements.of(first + i), A, beside,
-                  [=](int j) { return threads == 1 || (j / columns_of_strip) % threads == thread; });
-#pragma omp barrier
-      if (failed) break;
+      if (faulty < total) continue;  // no thread leaves: all meet at each chunk's end
+      for (std::size_t i = 0; i < count; ++i)
+        scatter(contributions[i], elements.of(first + i), A, beside,
+                [=](int j) { return threads == 1 || (j / columns_of_strip) % threads == thread; });
     }
   }
   if (fault) rethrow(fault, model.source);

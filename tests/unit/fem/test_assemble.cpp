@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -92,6 +93,26 @@ TEST(Assemble, DigitsDoNotDependOnTheNumberOfThreads) {
   omp_set_num_threads(before);
 }
 
+// In the first chunk and in later ones, more of them after it.
+TEST(Assemble, TheFirstBadElementIsNamedWhateverTheThreadThatMeetsIt) {
+  const int before = omp_get_max_threads();
+  for (const long first : {3L, 700L, 1200L}) {
+    Model model = linked_sheet(35);
+    for (const long id : {first, first + 1, first + 9, 1213L}) {
+      auto& quad = std::get<Quad4>(model.elements[static_cast<std::size_t>(id)]);
+      quad.id = id;
+      std::swap(quad.nodes[1], quad.nodes[2]);  // it crosses itself
+    }
+    for (const int threads : {1, 2, 5}) {
+      omp_set_num_threads(threads);
+      EXPECT_THAT([&] { assemble(model); },
+                  testing::ThrowsMessage<ModelError>(testing::HasSubstr(fmt::format("quad element {}:", first))))
+          << threads;
+    }
+  }
+  omp_set_num_threads(before);
+}
+
 TEST(Assemble, EqualsTheDenseSumOverElements) {
   const Model model = random_frame(1);
   const Structure s = assemble(model);
@@ -158,12 +179,4 @@ TEST(Assemble, AModelWithoutElementsIsRefused) {
   model.source = "void.msh";
   EXPECT_THAT([&] { (void)assemble(model); },
               testing::ThrowsMessage<ModelError>(testing::HasSubstr("void.msh: the model has no elements")));
-}
-
-TEST(Assemble, ABadElementIsNamedWhateverTheThreadThatMeetsIt) {
-  Model model = random_frame(5);
-  std::get<Beam>(model.elements[4]).nodes[1] = std::get<Beam>(model.elements[4]).nodes[0];
-  std::get<Beam>(model.elements[4]).offsets = {Vec3::Zero(), Vec3::Zero()};
-  std::get<Beam>(model.elements[4]).id = 4711;
-  EXPECT_THAT([&] { (void)assemble(model); }, testing::ThrowsMessage<ModelError>(testing::HasSubstr("4711")));
 }
