@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "fem/checks/cells.hpp"
+#include "fem/elements/shell_shape.hpp"
 
 namespace tenon::fem::checks {
 namespace {
@@ -18,6 +19,7 @@ double angle_between(const Vec3& a, const Vec3& b) { return degrees * std::atan2
 struct Shape {
   double warp = 0.0, taper = 0.0, skew = 90.0, angle_min = 0.0, angle_max = 0.0, aspect = 1.0, jacobian = 1.0;
   bool flat = false;  ///< no area at all, or folded over itself
+  bool convex = true;
 };
 
 Shape quad_shape(const std::array<Vec3, 4>& x) {
@@ -31,7 +33,7 @@ Shape quad_shape(const std::array<Vec3, 4>& x) {
     longest = std::max(longest, side);
     shortest = std::min(shortest, side);
   }
-  shape.flat = !(area > 1e-12 * longest * longest);
+  shape.flat = !spans_area(d1, d2);
   if (shape.flat) return shape;
   const Vec3 n = n2.normalized();
   shape.aspect = longest / shortest;
@@ -46,6 +48,7 @@ Shape quad_shape(const std::array<Vec3, 4>& x) {
     const double J = n.dot(on.cross(back));  // 4 det ∂x/∂(r, s) at the corner = twice its triangle
     double angle = angle_between(on, back);
     if (J < 0.0) angle = 360.0 - angle;
+    shape.convex = shape.convex && turns(J, n2.norm());
     shape.angle_min = std::min(shape.angle_min, angle);
     shape.angle_max = std::max(shape.angle_max, angle);
     shape.taper = std::max(shape.taper, std::abs(J / area - 1.0));  // |2 A_i / A − 1|
@@ -67,7 +70,7 @@ Shape triangle_shape(const std::array<Vec3, 4>& x) {
     shape.angle_min = std::min(shape.angle_min, angle_between(on, back));
     shape.angle_max = std::max(shape.angle_max, angle_between(on, back));
   }
-  shape.flat = !(area > 1e-12 * longest * longest);
+  shape.flat = !spans_area(x[1] - x[0], x[2] - x[0]);
   if (!shape.flat) shape.aspect = longest * longest * std::numbers::sqrt3 / (4.0 * area);
   return shape;
 }
@@ -121,7 +124,7 @@ void check_shapes(const Cells& cells, const CheckLimits& limits, std::vector<Fin
       angle_triangle.look(shape.angle_max, cell);
       continue;
     }
-    if (shape.jacobian <= 0.0) {
+    if (!shape.convex) {
       folded.add(-shape.jacobian, fmt::format("element {} ({:.3g})", cell.id, shape.jacobian));
       continue;
     }

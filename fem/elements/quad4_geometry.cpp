@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "fem/elements/shell_shape.hpp"
 #include "fem/error.hpp"
 
 // A bilinear quad x = x̄ + r x_r + s x_s + rs x_d has three constant strains and two that vary. All five follow from
@@ -62,23 +63,10 @@ using Chord = Eigen::Matrix<double, 1, 12>;
 
 using Vec2 = Eigen::Vector2d;
 using Mat2 = Eigen::Matrix2d;
-using NormalTilts = std::array<Vec2, 4>;
-
-/// NormalTilts of the nodes' normals against the plane's; false where a node has none, or all are the plane's.
-bool normal_tilts(const Quad4& quad, std::span<const Vec3> directors, const Mat3& R, NormalTilts& m) {
-  if (directors.empty()) return false;
-  double largest = 0.0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const Vec3 n = R.transpose() * directors[static_cast<std::size_t>(quad.nodes[i])];
-    if (!(std::abs(n.z()) > 0.5)) return false;  // none, or of another surface
-    m[i] = n.head<2>() / n.z();
-    largest = std::max(largest, m[i].norm());
-  }
-  return largest > 1e-9;
-}
+using Tilts = NormalTilts<4>;
 
 /// What (3) adds to the chord of corners i and j, over (w θx θy).
-Chord chord_terms(const FlatQuad& f, const NormalTilts& m, int i, int j) {
+Chord chord_terms(const FlatQuad& f, const Tilts& m, int i, int j) {
   const auto ki = static_cast<std::size_t>(i), kj = static_cast<std::size_t>(j);
   const double dx = f.x[j] - f.x[i], dy = f.y[j] - f.y[i];
   const double bend = (dx * (m[kj].x() - m[ki].x()) + dy * (m[kj].y() - m[ki].y())) / 12.0;
@@ -96,7 +84,7 @@ struct Covariant {
 };
 
 /// ¼ Δm·Δx of corners i and j.
-double normal_turn(const FlatQuad& f, const NormalTilts& m, int i, int j) {
+double normal_turn(const FlatQuad& f, const Tilts& m, int i, int j) {
   return 0.25 *
          Vec2(f.x[j] - f.x[i], f.y[j] - f.y[i]).dot(m[static_cast<std::size_t>(j)] - m[static_cast<std::size_t>(i)]);
 }
@@ -111,7 +99,7 @@ Chord bending_turn(const FlatQuad& f, int i, int j) {
 }
 
 /// (4). `J`: columns x_r, x_s
-Covariant<Chord> parabolas(const FlatQuad& f, const NormalTilts& m, const Mat2& J, const Mat2& J_inv) {
+Covariant<Chord> parabolas(const FlatQuad& f, const Tilts& m, const Mat2& J, const Mat2& J_inv) {
   const Covariant<double> z{.rr = 0.5 * (normal_turn(f, m, 3, 2) + normal_turn(f, m, 0, 1)),
                             .ss = 0.5 * (normal_turn(f, m, 1, 2) + normal_turn(f, m, 0, 3)),
                             .rs = f.arms[0].z()};
@@ -138,14 +126,6 @@ Covariant<Chord> parabolas(const FlatQuad& f, const NormalTilts& m, const Mat2& 
           .rs = (along * A.squaredNorm() * N[0] * N[1] + any * rs * (r2 + s2)) / 6.0 * G};
 }
 
-/// (5)
-double resolved_share(const NormalTilts& m, double area, double thickness) {
-  const Vec2 mean = 0.25 * (m[0] + m[1] + m[2] + m[3]);
-  double spread2 = 0.0;
-  for (const Vec2& tilt : m) spread2 = std::max(spread2, (tilt - mean).squaredNorm());
-  return 1.0 / (1.0 + spread2 * area / (12.0 * thickness * thickness));
-}
-
 }  // namespace
 
 FlatQuad flat_quad(const Quad4& quad, std::span<const Vec3> nodes) {
@@ -153,7 +133,7 @@ FlatQuad flat_quad(const Quad4& quad, std::span<const Vec3> nodes) {
   for (std::size_t i = 0; i < 4; ++i) p[i] = nodes[static_cast<std::size_t>(quad.nodes[i])];
   const Vec3 d13 = p[2] - p[0], d24 = p[3] - p[1], normal = d13.cross(d24);
   const double size2 = d13.squaredNorm() + d24.squaredNorm();
-  if (!(normal.norm() > 1e-10 * size2))
+  if (!spans_area(d13, d24))
     throw ModelError(fmt::format("quad element {}: its area is zero", quad.id),
                      "Delete it, or use a triangle where two of its nodes coincide");
   FlatQuad f;
@@ -171,7 +151,7 @@ FlatQuad flat_quad(const Quad4& quad, std::span<const Vec3> nodes) {
   for (int i = 0; i < 4; ++i) {
     const int next = (i + 1) % 4, last = (i + 3) % 4;
     const double turn = (f.x[next] - f.x[i]) * (f.y[last] - f.y[i]) - (f.y[next] - f.y[i]) * (f.x[last] - f.x[i]);
-    if (!(turn > 1e-8 * normal.norm()))
+    if (!turns(turn, normal.norm()))
       throw ModelError(
           fmt::format("quad element {}: it is folded or crossed, the angle at its corner {} is 180° or more", quad.id,
                       i + 1),
@@ -183,8 +163,8 @@ FlatQuad flat_quad(const Quad4& quad, std::span<const Vec3> nodes) {
 bool surface_terms(const Quad4& quad, std::span<const Vec3> directors, const FlatQuad& f, double thickness,
                    SurfaceTerms& E) {
   using Pair = Eigen::Matrix<double, 2, 12>;
-  NormalTilts m;
-  if (!normal_tilts(quad, directors, f.R, m)) return false;
+  Tilts m;
+  if (!normal_tilts(quad.nodes, directors, f.R, m)) return false;
 
   const Chord A = 0.25 * chord_terms(f, m, 3, 2), B = 0.25 * chord_terms(f, m, 0, 1);  // (1)
   const Chord C = 0.25 * chord_terms(f, m, 1, 2), D = 0.25 * chord_terms(f, m, 0, 3);
@@ -207,7 +187,7 @@ bool surface_terms(const Quad4& quad, std::span<const Vec3> directors, const Fla
   const Pair u_r = to_plane.lazyProduct(e_r), u_s = to_plane.lazyProduct(e_s);
   e_d << 0.5 * (A - B) - x_d.transpose().lazyProduct(u_r), 0.5 * (C - D) - x_d.transpose().lazyProduct(u_s);
   const Pair u_d = to_plane.lazyProduct(e_d);
-  const double share = resolved_share(m, 4.0 * J.determinant(), thickness);
+  const double share = resolved_share(m, 4.0 * J.determinant(), thickness);  // (5)
   for (int i = 0; i < 4; ++i)
     E.middleRows<2>(2 * i) = share * corner_r[i] * u_r + share * corner_s[i] * u_s + share * corner_h[i] * u_d;
   return true;

@@ -4,6 +4,7 @@
 
 #include "fem/elements/basic_frame.hpp"
 #include "fem/elements/shell.hpp"
+#include "fem/elements/shell_shape.hpp"
 #include "fem/elements/shell_theory.hpp"
 #include "fem/error.hpp"
 
@@ -16,9 +17,11 @@
 // n·∂θ = 0, and moves it by u_j − u_i = ∫ θ × dx along the surface. With θ and the normals' tilt m, their part in the
 // facet, both linear in it, â = a − ā what a differs from its mean by, an edge of length l and tangent t, q = n × t:
 //
-//   θz_i = θz₀ − ½ θ̂_i·(m_i + m̄)                                                                                    (2)
-//   (u_j − u_i)·t / l = −(1/12) (m_j − m_i)·t  ((θ_j − θ_i) × n)·t, (3) (u_j − u_i)·q / l = mean of θz along the edge −
-//   (1/12) (m_j − m_i)·t  ((θ_j − θ_i) × n)·q                         (4)
+//   θz_i = θz₀ − ½ θ̂_i·(m_i + m̄)                                                                 (2)
+//
+//   (u_j − u_i)·t / l = −(1/12) (m_j − m_i)·t ((θ_j − θ_i) × n)·t                                  (3)
+//
+//   (u_j − u_i)·q / l = mean of θz along the edge − (1/12) (m_j − m_i)·t ((θ_j − θ_i) × n)·q       (4)
 //
 // The flat membrane takes these θz and edges for strain: thin shells lock, (1) by θz above all (the hemisphere of
 // t/R = 4e-4, 16 × 16, to a hundredth of its deflection). Subtracted from what it is given, they leave it nothing.
@@ -50,7 +53,7 @@ FlatTria flatten(const Tria3& tria, std::span<const Vec3> nodes) {
   const Vec3 e12 = nodes[static_cast<std::size_t>(tria.nodes[1])] - p1;
   const Vec3 e13 = nodes[static_cast<std::size_t>(tria.nodes[2])] - p1;
   const Vec3 normal = e12.cross(e13);
-  if (!(normal.norm() > 1e-10 * (e12.squaredNorm() + e13.squaredNorm())))
+  if (!spans_area(e12, e13))
     throw ModelError(fmt::format("triangle element {}: its area is zero", tria.id),
                      "Delete it, or move one of its nodes off the line through the others");
   FlatTria f;
@@ -65,7 +68,7 @@ FlatTria flatten(const Tria3& tria, std::span<const Vec3> nodes) {
 
 /// How the surface's normals lie to the facet.
 struct FacetTilts {
-  std::array<Eigen::Vector2d, 3> m;
+  NormalTilts<3> m;
   Eigen::Vector2d mean;
   bool curved = false;          ///< false for a flat facet, or where a node has no director
   double drilling_share = 1.0;  ///< (5)
@@ -73,19 +76,10 @@ struct FacetTilts {
 
 FacetTilts facet_tilts(const Tria3& tria, std::span<const Vec3> directors, const FlatTria& f, double thickness) {
   FacetTilts t;
-  if (directors.empty()) return t;
-  double largest = 0.0, spread2 = 0.0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vec3 n = f.R.transpose() * directors[static_cast<std::size_t>(tria.nodes[i])];
-    if (!(std::abs(n.z()) > 0.5)) return t;
-    t.m[i] = n.head<2>() / n.z();
-    largest = std::max(largest, t.m[i].norm());
-  }
-  if (!(largest > 1e-9)) return t;
-  t.curved = true;
-  t.mean = (t.m[0] + t.m[1] + t.m[2]) / 3.0;
-  for (const Eigen::Vector2d& m : t.m) spread2 = std::max(spread2, (m - t.mean).squaredNorm());
-  t.drilling_share = 1.0 / (1.0 + spread2 * f.A / (12.0 * thickness * thickness));
+  t.curved = normal_tilts(tria.nodes, directors, f.R, t.m);
+  if (!t.curved) return t;
+  t.mean = mean_tilt(t.m);
+  t.drilling_share = resolved_share(t.m, f.A, thickness);
   return t;
 }
 

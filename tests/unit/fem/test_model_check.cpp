@@ -204,6 +204,11 @@ TEST(ModelCheck, FaultyElementsAreErrorsAndStopTheMatrices) {
   EXPECT_LT(found(f, "inverted")->value, 0.0);
   f = shape({Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(2, 0, 0)});
   EXPECT_EQ(found(f, "no_area")->where.front(), "element 7");
+  // on either side of what the elements take
+  EXPECT_TRUE(found(shape({Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0.5, 0.5 - 1e-9, 0), Vec3(0, 1, 0)}), "inverted"));
+  EXPECT_FALSE(found(shape({Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0.5, 0.5 + 1e-6, 0), Vec3(0, 1, 0)}), "inverted"));
+  EXPECT_TRUE(found(shape({Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0.5, 1e-10, 0)}), "no_area"));
+  EXPECT_FALSE(found(shape({Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0.5, 2e-10, 0)}), "no_area"));
   Model model = plate(2);
   std::swap(quad(model, 0).nodes[1], quad(model, 0).nodes[2]);
   const std::vector<Finding> findings = check_model(model);
