@@ -22,12 +22,14 @@ bool is_skew(std::span<const Vec3> x) {
   return false;
 }
 
-/// h² κ, h² the area and κ the largest curvature between two corners, whose normals are n; 0 where they have none.
+/// h² κ, h² the area and κ the largest curvature between two corners, whose normals are n in either sense; 0 where they
+/// have none.
 double area_times_curvature(std::span<const Vec3> x, std::span<const Vec3> n) {
   double curvature = 0.0;
   for (std::size_t i = 0; i < x.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
-      if (n[i].dot(n[j]) > 0.0) curvature = std::max(curvature, n[i].cross(n[j]).norm() / (x[i] - x[j]).norm());
+      if (const double apart = (x[i] - x[j]).norm(); apart > 0.0)
+        curvature = std::max(curvature, n[i].cross(n[j]).norm() / apart);
   const std::size_t last = x.size() - 1;  // of a triangle x₂ twice
   return 0.5 * (x[2] - x[0]).cross(x[last] - x[1]).norm() * curvature;
 }

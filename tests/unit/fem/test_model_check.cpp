@@ -358,6 +358,17 @@ TEST(ModelCheck, SkewShellsTooLargeForTheirCurvature) {
     const Finding* const finding = found(findings, "curvature");
     ASSERT_NE(finding, nullptr);
     EXPECT_EQ(finding->count, triangles ? 512 : 256);
+    Model turned = cylinder(1e-4, triangles ? -1.0 : 1.0, triangles);  // their normals, of every other column
+    for (std::size_t e = 0; e < turned.elements.size(); ++e) {
+      const auto turn = [](auto& shell) {
+        if constexpr (requires { shell.material_axis; }) std::reverse(shell.nodes.begin(), shell.nodes.end());
+      };
+      if (e / (triangles ? 2 : 1) % 2 == 1) std::visit(turn, turned.elements[e]);
+    }
+    const std::vector<Finding> in_both_senses = check_geometry(turned);
+    ASSERT_NE(found(in_both_senses, "curvature"), nullptr);
+    EXPECT_EQ(found(in_both_senses, "curvature")->count, finding->count);
+    EXPECT_NEAR(found(in_both_senses, "curvature")->value, finding->value, 1e-9 * finding->value);
     const double apart = std::hypot(chord, triangles ? angle : angle - 1.0 / 16.0);  // the nearest that turn
     const double area = (triangles ? 0.5 : 1.0) * chord / 16.0;
     EXPECT_NEAR(finding->value, area * std::sin(angle) / apart / 1e-4, 0.02 * finding->value);  // normals: O(h²)
