@@ -30,7 +30,8 @@ struct AbaqusOptions {
 /// number has a radius (Abaqus), with two a diameter in each direction (CalculiX). Shear coefficients are Cowper's,
 /// those of the programs differ in the third digit. COMPOSITE shells and those of LAMINA or ENGINEERING CONSTANTS are
 /// laminates, their direction 1 the projection of an *ORIENTATION whose second line names axis 3; without that line,
-/// and with orientations of the layers' own, for elements across axis 3 alone: else the two programs differ.
+/// and with orientations of the layers' own, for elements across axis 3 alone: else the two programs differ. Some layers
+/// with an orientation of their own and some without are refused, for the same reason.
 ///
 /// Throws InputError with file, line and column for everything that cannot be understood, and for every keyword that
 /// would change stiffness or mass if it were read past (unless `allow_losses`).

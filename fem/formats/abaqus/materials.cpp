@@ -21,14 +21,15 @@ void lamina(const Block& block, const std::array<std::size_t, 6>& place, DraftMa
         if (!line.next()) block.refuse(fmt::format("*ELASTIC has no {}", names[i]), "Add the line that holds it");
       }
       values[i] = i == 2 ? line.real(place[i] - first, names[i]) : line.positive(place[i] - first, names[i]);
+      if (i == 2 && !(values[2] * values[2] * values[1] < values[0]))
+        line.fail(place[2] - first,
+                  fmt::format("a ν12 below √(E1/E2) = {:.4g} in size", std::sqrt(values[0] / values[1])));
     }
     return values;
   };
   DataLines line(block);
   if (!line.next()) block.refuse("*ELASTIC has no data line", "Give E1, E2 and ν12");
   const auto [E1, E2, nu12, G12, G13, G23] = read(line);
-  if (!(nu12 * nu12 * E2 < E1))
-    line.fail(place[2], fmt::format("a ν12 below √(E1/E2) = {:.4g} in size", std::sqrt(E1 / E2)));
   current.lamina = {.E1 = E1, .E2 = E2, .nu12 = nu12, .G12 = G12, .G13 = G13, .G23 = G23};
   while (line.next()) current.varies |= read(line) != std::array{E1, E2, nu12, G12, G13, G23};
 }

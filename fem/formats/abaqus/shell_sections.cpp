@@ -33,6 +33,7 @@ struct Layers {
   const Block& block;
   DraftShellSection& out;
   bool directed = false;             ///< whether any layer has a direction
+  bool unnamed = false;              ///< whether any of those has no orientation of its own
   std::vector<std::string> named{};  ///< the layers' own orientations, "" where they have none
 
   void read();
@@ -63,13 +64,19 @@ void Layers::read_one(const DataLines& line) {
   out.section.plies.back().thickness = line.positive(0, "the thickness of the layer");
   out.section.plies.back().angle = angle.value_or(0.0) * std::numbers::pi / 180.0;
   named.emplace_back(angle || m.isotropic ? std::string() : std::string(line.at(3)));
+  unnamed = unnamed || (!m.isotropic && named.back().empty());
 }
 
 /// Abaqus projects an orientation whose second line names the axis that is near the normal; CalculiX takes the axes as
-/// they stand. Both mean the same where axis 3 is the normal.
+/// they stand. Both mean the same where axis 3 is the normal. A layer without an orientation, beside others that have
+/// one, goes by the section's or by global x in Abaqus, by the layer's before or by global x in CalculiX.
 void Layers::direct() {
   const auto own = std::ranges::find_if(named, [](const std::string& name) { return !name.empty(); });
   const std::string name = block.has("ORIENTATION") ? block.value("ORIENTATION") : own != named.end() ? *own : "";
+  if (own != named.end() && unnamed) {
+    out.unread = "layers without an ORIENTATION of their own beside layers that have one,";
+    return;
+  }
   if (name.empty()) {
     out.unread = "a material that is not isotropic, without ORIENTATION,";
     return;

@@ -417,10 +417,16 @@ TEST_F(Abaqus, ShellsWhoseDirectionsAreNotKnown) {
   refused(shell_deck("MATERIAL=FULL, ORIENTATION=PROJECTED\n.003"), place, "'FULL', neither isotropic nor a lamina");
   refused(shell_deck("COMPOSITE\n.001,, PLY, ALONG\n.001,, PLY, UP"), place, "'UP' that does not share axis 3");
   refused(shell_deck("COMPOSITE\n.001,, PLY, ALNOG"), place, "'ALNOG'");
+  for (const std::string layers : {"COMPOSITE\n.001,, PLY\n.001,, PLY, ACROSS\n.001,, PLY",
+                                   "COMPOSITE\n.001,, PLY, ALONG\n.001,, PLY, ACROSS\n.001,, PLY",
+                                   "COMPOSITE\n.001,, PLY, ACROSS\n.001,, BLOCK, 0.\n.001,, PLY, ACROSS",
+                                   "COMPOSITE, ORIENTATION=ALONG\n.001,, PLY, ACROSS\n.001,, PLY\n.001,, PLY"})
+    refused(shell_deck(layers), place, "layers without an ORIENTATION of their own beside layers that have one");
   refused(shell_deck("COMPOSITE\n.001,, FOAMY"), place, "Did you mean 'FOAM'?");
   refused(shell_deck("COMPOSITE\n0.,, FOAM"), "deck.inp:40", "the thickness of the layer");
   refused(shell_deck("COMPOSITE"), place, "has no data line");
   refused(shell_deck("MATERIAL=FOAM, OFFSET=SPOS\n.003"), place, "OFFSET=SPOS");
-  refused("*NODE\n1, 0, 0, 0\n*MATERIAL, NAME=M\n*ELASTIC, TYPE=LAMINA\n1., 4., .6, 1., 1., 1.\n", "deck.inp:5",
-          "√(E1/E2) = 0.5");
+  const std::string material = "*NODE\n1, 0, 0, 0\n*MATERIAL, NAME=M\n*ELASTIC, TYPE=";
+  refused(material + "LAMINA\n1., 4., .6, 1., 1., 1.\n", "deck.inp:5", "√(E1/E2) = 0.5");
+  refused(material + "ENGINEERING CONSTANTS\n1., 4., 4., .6, .1, .1, 1., 1.\n1.\n", "deck.inp:5:13", "√(E1/E2) = 0.5");
 }
