@@ -54,6 +54,7 @@ class MedReader {
   void read_field(const std::string& name, const std::string& time, std::size_t components);
   std::vector<long> numbers_of(const std::string& entities, std::size_t n);
   void take_numbers();
+  void charge(const std::string& what, std::uint64_t bytes);
   Values numbers(const std::string& dataset);
   Values rows(const std::string& dataset, std::size_t n, std::size_t components);
   void check_count(const std::string& dataset, std::size_t n) const;
@@ -64,7 +65,7 @@ class MedReader {
   }
 
   hdf5::File file_;
-  std::uint64_t most_;
+  std::uint64_t most_;  ///< bytes that what is kept may still take
   Mesh mesh_;
   vtk::Grid grid_;
   std::string step_;  ///< path of the mesh's step
@@ -72,10 +73,15 @@ class MedReader {
   std::vector<TypeOfCells> types_;
 };
 
-/// A dataset's numbers; all together take at most a hundred times the file.
+/// All that is kept together takes at most a hundred times the file.
+void MedReader::charge(const std::string& what, std::uint64_t bytes) {
+  if (bytes > most_) med_fault(fmt::format("{}: with all before, it takes more than a hundred times the file", what));
+  most_ -= bytes;
+}
+
 Values MedReader::numbers(const std::string& dataset) {
   Values values = file_.values(dataset, most_);
-  most_ -= sizeof(double) * values.size();
+  charge(dataset, sizeof(double) * values.size());
   return values;
 }
 
@@ -209,8 +215,10 @@ void MedReader::read_families(const std::string& families, bool of_cells, const 
     const auto found = members.find(*number);
     if (found == members.end()) continue;
     if (file_.has(family + "/GRO/NOM"))
-      for (const std::string& group : file_.texts(family + "/GRO/NOM", most_))
+      for (const std::string& group : file_.texts(family + "/GRO/NOM", most_)) {
+        charge(family + "/GRO/NOM", sizeof(std::string) + group.size() + sizeof(int) * found->second.size());
         if (!group.empty()) grid_.add_set(of_cells, group, found->second);
+      }
     members.erase(found);
   }
   if (!members.empty())
@@ -266,6 +274,7 @@ void MedReader::read_field(const std::string& name, const std::string& time, std
       grid_.add_data(false, name, rows(values + "/CO", points_, components), points_);
     } else if (one_each && type != types_.end()) {
       const Values found = rows(values + "/CO", type->n, components);
+      if (covered == 0) charge(time, sizeof(double) * cells_ * components);
       at_cells.reals.resize(cells_ * components, std::numeric_limits<double>::quiet_NaN());
       for (std::size_t i = 0; i < found.size(); ++i) at_cells.reals[type->first * components + i] = found.at(i);
       at_cells.real = at_cells.real || found.real;
@@ -298,6 +307,10 @@ void MedReader::take_numbers() {
     return std::unordered_set<long>(numbers.begin(), numbers.end()).size() == numbers.size();
   };
   const std::vector<long> of_points = numbers_of(step_ + "/NOE", points_);
+  if (!of_points.empty() && std::ranges::min(of_points) < 1)
+    med_fault(
+        fmt::format("'{}/NOE/NUM' gives a node the number {}, expected 1 or more", step_, std::ranges::min(of_points)),
+        "Number the nodes anew");
   if (!all_differ(of_points))
     med_fault(fmt::format("'{}/NOE/NUM' gives two nodes the same number", step_), "Number the nodes anew");
   for (std::size_t i = 0; i < points_; ++i)
@@ -307,8 +320,9 @@ void MedReader::take_numbers() {
     const std::vector<long> given = numbers_of(type.path, type.n);
     of_cells.insert(of_cells.end(), given.begin(), given.end());
   }
-  const bool given = of_cells.size() == cells_ && all_differ(of_cells);
-  if (!given && !of_cells.empty()) lose("NUM", "numbers of cells that are not one each: they are counted from 1");
+  const bool given = of_cells.size() == cells_ && all_differ(of_cells) && std::ranges::min(of_cells) > 0;
+  if (!given && !of_cells.empty())
+    lose("NUM", "numbers of cells that are not one each from 1 on: they are counted from 1");
   for (std::size_t b = 0; b < types_.size(); ++b)
     for (std::size_t c = 0; c < types_[b].n; ++c) {
       const std::size_t cell = types_[b].first + c;

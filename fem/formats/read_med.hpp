@@ -12,7 +12,7 @@ namespace tenon::fem {
 /// Fields on parts of a mesh, at points within cells or of later times are in Mesh::losses, and so are names, joints,
 /// equivalences, and the unit of the coordinates, which a scene states.
 /// Throws InputError, which names the group or dataset at fault; for cells this project has none of, curvilinear
-/// coordinates, several meshes. The numbers take at most a hundred times the size of the file.
+/// coordinates, several meshes. What is kept takes at most a hundred times the size of the file.
 /// Source: MED-fichier 4, model and its HDF5 representation (salome-platform.org).
 Mesh read_med(const std::filesystem::path& path);
 

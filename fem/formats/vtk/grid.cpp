@@ -140,11 +140,18 @@ void Grid::make_sets(const std::string& name, const Eigen::MatrixXd& values) {
     mesh_.losses.push_back({fmt::format("sets of '{}'", name), 1, "more than 256 values; it is cell data alone"});
     return;
   }
-  for (const std::int64_t v : distinct) mesh_.cell_sets[fmt::format("{}_{}", name, v)].resize(mesh_.cells.size());
+  const auto set_of = [&](std::int64_t v) { return fmt::format("{}_{}", name, v); };
+  for (const std::int64_t v : distinct)
+    if (mesh_.cell_sets.contains(set_of(v))) {
+      mesh_.losses.push_back(
+          {fmt::format("sets of '{}'", name), 1, fmt::format("'{}' is another set; it is cell data alone", set_of(v))});
+      return;
+    }
+  for (const std::int64_t v : distinct) mesh_.cell_sets[set_of(v)].resize(mesh_.cells.size());
   for (std::size_t c = 0; c < cells_.size(); ++c) {
     const double v = values(static_cast<Eigen::Index>(c), 0);
     if (v != v) continue;
-    auto& set = mesh_.cell_sets[fmt::format("{}_{}", name, static_cast<std::int64_t>(v))];
+    auto& set = mesh_.cell_sets[set_of(static_cast<std::int64_t>(v))];
     set[static_cast<std::size_t>(cells_[c].first)].push_back(cells_[c].second);
   }
 }

@@ -52,12 +52,13 @@ def numbered(file, entity, kind, numbers):
     MEDmeshEntityNumberWr(file, "part", *NOW, entity, kind, len(numbers), MEDINT(numbers))
 
 
-def add_field(file, name, entity, kind, rows, step=NOW, create=True):
+def add_field(file, name, entity, kind, rows, step=NOW, create=True, whole=False):
     width = len(rows[0])
     if create:
-        MEDfieldCr(file, name, MED_FLOAT64, width, names(16, *"abc"[:width]), names(16, *"uvw"[:width]), "s", "part")
+        MEDfieldCr(file, name, MED_INT32 if whole else MED_FLOAT64, width, names(16, *["a"] * width),
+                   names(16, *["u"] * width), "s", "part")
     MEDfieldValueWr(file, name, *step, 0.0, entity, kind, MED_FULL_INTERLACE, MED_ALL_CONSTITUENT, len(rows),
-                    MEDFLOAT([x for row in rows for x in row]))
+                    (MEDINT if whole else MEDFLOAT)([x for row in rows for x in row]))
 
 
 def plate(path, minor):
@@ -89,24 +90,30 @@ def plate(path, minor):
 
 
 def brick(path):
-    """One solid of second order of each shape: corners as MED counts them, the first face's normal outwards."""
+    """A cell of each kind that has an inside: corners as MED counts them, the first face's normal outwards."""
     square = [(0, 0), (0, 1), (1, 1), (1, 0)]
     triangle = [(0, 0), (0, 1), (1, 0)]
     ring = lambda n, low: [(low + i, low + (i + 1) % n) for i in range(n)]
     pillars = lambda n: [(i, i + n) for i in range(n)]
-    file = create(path)
-    points = []
+    sides = lambda n: [(i, (i + 1) % n, n + (i + 1) % n, n + i) for i in range(n)]
+    hexa, penta = [[(x, y, z) for z in (0, 1) for x, y in base] for base in (square, triangle)]
+    tetra, pyra = [[(x, y, 0) for x, y in base] + [(0, 0, 1)] for base in (triangle, square)]
+    edges = {n: ring(n, 0) + ring(n, n) + pillars(n) for n in (3, 4)}
+    roofs = {n: ring(n, 0) + [(i, n) for i in range(n)] for n in (3, 4)}
+    faces = [(0, 1, 2, 3)] + sides(4) + [(4, 5, 6, 7), range(8)]
     shapes = [
-        (MED_HEXA20, [(x, y, z) for z in (0, 1) for x, y in square], ring(4, 0) + ring(4, 4) + pillars(4)),
-        (MED_PENTA15, [(x, y, z) for z in (0, 1) for x, y in triangle], ring(3, 0) + ring(3, 3) + pillars(3)),
-        (MED_TETRA10, [(x, y, 0) for x, y in triangle] + [(0, 0, 1)], ring(3, 0) + [(i, 3) for i in range(3)]),
-        (MED_PYRA13, [(x, y, 0) for x, y in square] + [(0, 0, 1)], ring(4, 0) + [(i, 4) for i in range(4)]),
+        (MED_HEXA8, hexa, []), (MED_HEXA20, hexa, edges[4]), (MED_HEXA27, hexa, edges[4] + faces),
+        (MED_PENTA6, penta, []), (MED_PENTA15, penta, edges[3]), (MED_PENTA18, penta, edges[3] + sides(3)),
+        (MED_TETRA4, tetra, []), (MED_TETRA10, tetra, roofs[3]),
+        (MED_PYRA5, pyra, []), (MED_PYRA13, pyra, roofs[4]),
+        (MED_QUAD9, hexa[3::-1], ring(4, 0) + [range(4)]),
     ]
-    cells = []
-    for kind, corners, edges in shapes:
-        middles = [tuple((a + b) / 2 for a, b in zip(corners[i], corners[j])) for i, j in edges]
+    mean = lambda points: tuple(sum(x) / len(points) for x in zip(*points))
+    file = create(path)
+    points, cells = [], []
+    for kind, corners, middles in shapes:
         first = len(points) + 1
-        points += corners + middles
+        points += corners + [mean([corners[i] for i in ends]) for ends in middles]
         cells.append((kind, list(range(first, len(points) + 1))))
     add_points(file, points)
     for kind, nodes in cells:
@@ -137,6 +144,29 @@ def flat(path):
     MEDfileClose(file)
 
 
+def named_alike(path):
+    """Groups mat_1, mat_2 of one line each, and whole numbers `mat` at lines that would be sets of the same names."""
+    file = create(path, unit="")
+    add_points(file, [(0, 0, 0), (1, 0, 0), (2, 0, 0)])
+    add_cells(file, MED_SEG2, [(1, 2), (2, 3)])
+    for number in (1, 2):
+        add_family(file, str(number), -number, [f"mat_{number}"])
+    of_families(file, MED_CELL, MED_SEG2, [-1, -2])
+    add_field(file, "mat", MED_CELL, MED_SEG2, [(2,), (1,)], whole=True)
+    add_field(file, "part", MED_CELL, MED_SEG2, [(5,), (5,)], whole=True)
+    MEDfileClose(file)
+
+
+def wide(path):
+    """A field of 1000 components at one line beside 40,000 points, which all would get a row of."""
+    file = create(path)
+    add_points(file, [(0, 0, 0), (1, 0, 0)])
+    add_cells(file, MED_POINT1, [(1,)] * 40000)
+    add_cells(file, MED_SEG2, [(1, 2)])
+    add_field(file, "wide", MED_CELL, MED_SEG2, [[1.0] * 1000])
+    MEDfileClose(file)
+
+
 def main():
     folder = sys.argv[1]
     plate(f"{folder}/plate.med", None)
@@ -144,6 +174,8 @@ def main():
     brick(f"{folder}/brick.med")
     flat(f"{folder}/flat.med")
     refused(folder)
+    named_alike(f"{folder}/alike.med")
+    wide(f"{folder}/wide.med")
 
 
 main()

@@ -74,23 +74,34 @@ void replace(hid_t file, const std::string& dataset, const std::vector<int>& num
   H5Dclose(data), H5Sclose(space);
 }
 
-/// Corners of the edges on whose middles a cell's further nodes lie: vtkQuadraticHexahedron, …
-std::vector<std::pair<int, int>> edges_of(CellType type) {
-  const auto ring = [](int n, int low) {
-    std::vector<std::pair<int, int>> edges;
-    for (int i = 0; i < n; ++i) edges.emplace_back(low + i, low + (i + 1) % n);
-    return edges;
-  };
-  std::vector<std::pair<int, int>> edges =
-      ring(type == CellType::hexahedron20 || type == CellType::pyramid13 ? 4 : 3, 0);
-  const int n = static_cast<int>(edges.size());
-  const bool prism = type == CellType::hexahedron20 || type == CellType::wedge15;
-  if (prism) {
-    const auto top = ring(n, n);
-    edges.insert(edges.end(), top.begin(), top.end());
-  }
-  for (int i = 0; i < n; ++i) edges.emplace_back(i, prism ? i + n : n);
-  return edges;
+/// A cell's corners, and those in whose middle each further node lies: vtkTriQuadraticHexahedron, vtkBiQuadraticWedge…
+struct Middles {
+  int corners;
+  std::vector<std::vector<int>> of{};
+};
+
+Middles middles_of(CellType type) {
+  const std::string_view kind = fem::name(type);
+  const bool prism = kind.starts_with("hexa") || kind.starts_with("wedge"), flat = kind.starts_with("quad");
+  const int n = kind.starts_with("wedge") || kind.starts_with("tetra") ? 3 : 4;
+  Middles m{prism ? 2 * n : flat ? n : n + 1};
+  if (fem::node_count(type) == m.corners) return m;
+  for (int low = 0; low < (prism ? 2 * n : n); low += n)
+    for (int i = 0; i < n; ++i) m.of.push_back({low + i, low + (i + 1) % n});
+  for (int i = 0; i < (flat ? 0 : n); ++i) m.of.push_back({i, prism ? i + n : n});
+  if (type == CellType::wedge18)
+    for (int i = 0; i < 3; ++i) m.of.push_back({i, (i + 1) % 3, 3 + (i + 1) % 3, 3 + i});
+  if (type == CellType::hexahedron27)
+    for (const auto& face : {std::vector{0, 3, 7, 4},
+                             {1, 2, 6, 5},
+                             {0, 1, 5, 4},
+                             {2, 3, 7, 6},
+                             {0, 1, 2, 3},
+                             {4, 5, 6, 7},
+                             {0, 1, 2, 3, 4, 5, 6, 7}})
+      m.of.push_back(face);
+  if (type == CellType::quad9) m.of.push_back({0, 1, 2, 3});
+  return m;
 }
 
 }  // namespace
@@ -126,22 +137,42 @@ TEST_F(Med, PlateOfBothVersions) {
   }
 }
 
-// VTK turns solids the other way round: their volume must not be negative, and nodes lie on the middles of VTK's edges.
+// VTK turns solids the other way round: their volume must not be negative, and nodes lie in VTK's middles.
 TEST_F(Med, SolidsAreTurned) {
   const fem::Mesh mesh = fem::read_med(file("brick.med"));
-  ASSERT_EQ(mesh.cells.size(), 4U);
+  ASSERT_EQ(mesh.cells.size(), 11U);
   for (const CellBlock& block : mesh.cells) {
     SCOPED_TRACE(fem::name(block.type));
     const auto x = [&](int i) {
       return mesh.points[static_cast<std::size_t>(block.nodes[static_cast<std::size_t>(i)])];
     };
-    const auto edges = edges_of(block.type);
-    const int corners = fem::node_count(block.type) - static_cast<int>(edges.size());
+    const Middles middles = middles_of(block.type);
+    ASSERT_EQ(middles.corners + std::ssize(middles.of), fem::node_count(block.type));
     EXPECT_GT((x(1) - x(0)).cross(x(2) - x(0)).z(), 0.0);  // seen from within, from above
-    EXPECT_GT(x(corners - 1).z(), 0.5);
-    for (std::size_t e = 0; e < edges.size(); ++e)
-      EXPECT_EQ(x(corners + static_cast<int>(e)), 0.5 * (x(edges[e].first) + x(edges[e].second))) << "edge " << e;
+    if (block.type != CellType::quad9) {
+      EXPECT_GT(x(middles.corners - 1).z(), 0.5);
+    }
+    for (std::size_t m = 0; m < middles.of.size(); ++m) {
+      Vec3 mean = Vec3::Zero();
+      for (const int corner : middles.of[m]) mean += x(corner) / static_cast<double>(middles.of[m].size());
+      EXPECT_EQ(x(middles.corners + static_cast<int>(m)), mean) << "middle " << m;
+    }
   }
+}
+
+TEST_F(Med, NumbersAtCellsDoNotJoinGroupsNamedAlike) {
+  const fem::Mesh mesh = fem::read_med(file("alike.med"));
+  EXPECT_EQ(mesh.cell_sets.at("mat_1"), (std::vector<std::vector<int>>{{0}}));
+  EXPECT_EQ(mesh.cell_sets.at("mat_2"), (std::vector<std::vector<int>>{{1}}));
+  EXPECT_EQ(mesh.cell_sets.at("part_5"), (std::vector<std::vector<int>>{{0, 1}}));
+  ASSERT_EQ(mesh.losses.size(), 1U);
+  EXPECT_EQ(mesh.losses[0].name, "sets of 'mat'");
+  EXPECT_EQ(mesh.losses[0].note, "'mat_1' is another set; it is cell data alone");
+}
+
+// 320 MB of it, from a file of a third of one
+TEST_F(Med, WhatIsKeptStaysBelowAHundredTimesTheFile) {
+  EXPECT_THAT(refusal("wide.med"), HasSubstr("it takes more than a hundred times the file"));
 }
 
 TEST_F(Med, TwoCoordinatesANode) {
@@ -189,6 +220,10 @@ TEST_F(Med, DamageIsRefused) {
                 replace(f, step + "/NOE/NUM", {1, 2, 3, 4, 4});
               }),
               HasSubstr("gives two nodes the same number"));
+  EXPECT_THAT(refusal_of_plate([&](hid_t f) {
+                replace(f, step + "/NOE/NUM", {1, 2, -3, 4, 5});
+              }),
+              HasSubstr("gives a node the number -3, expected 1 or more"));
   EXPECT_THAT(refusal_of_plate([&](hid_t f) {
                 H5Ldelete(f, quads.c_str(), H5P_DEFAULT), H5Ldelete(f, (step + "/MAI").c_str(), H5P_DEFAULT);
               }),
