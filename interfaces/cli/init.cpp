@@ -52,6 +52,13 @@ std::string as_word(std::string name) {
   return name;
 }
 
+/// The same, told apart from `taken`, which it joins: words of names that differed.
+std::string new_word(const std::string& name, std::set<std::string>& taken) {
+  std::string word = as_word(name);
+  while (!taken.insert(word).second) word += "_";
+  return word;
+}
+
 constexpr const char* shell_words = "{shell: THICKNESS}";
 constexpr const char* beam_words =
     "{tube: [OUTER, INNER]}  # radii; or circle, rectangle, box, i, channel, general; move to `ignore` if it is no "
@@ -102,14 +109,15 @@ std::string free_point(const fem::Mesh& mesh, const std::vector<bool>& held) {
 }
 
 /// Sets of points as ports, small ones first; one that the deck holds, that shares points with those before, or that
-/// holds most of the mesh, is left as a comment.
-std::string port_lines(const fem::Mesh& mesh, const std::vector<bool>& held, const std::filesystem::path& file) {
+/// holds most of the mesh, is left as a comment. `names`: words that are taken, theirs too afterwards.
+std::string port_lines(const fem::Mesh& mesh, const std::vector<bool>& held, const std::filesystem::path& file,
+                       std::set<std::string>& names) {
   std::vector<std::pair<std::size_t, std::string>> sets;
   for (const auto& [set, points] : mesh.point_sets) sets.emplace_back(points.size(), set);
   std::ranges::sort(sets);
   std::vector<bool> taken(mesh.points.size(), false);
-  std::set<std::string> names;
   std::string text;
+  bool any = false;
   for (const auto& [size, set] : sets) {
     const std::vector<int>& points = mesh.point_sets.at(set);
     if (points.empty()) continue;
@@ -123,20 +131,20 @@ std::string port_lines(const fem::Mesh& mesh, const std::vector<bool>& held, con
       reason = "most of the points";
     else if (any_in(taken))
       reason = "shares points with a port above";
-    std::string name = as_word(set);
-    while (!reason && !names.insert(name).second) name += "_";  // words that were different names
-    text += fmt::format("      {}{}: {{set: {}}}{}{}\n", reason ? "# " : "", quoted(name, file), quoted(set, file),
-                        reason ? "  # " : "", reason ? reason : "");
+    text += fmt::format("      {}{}: {{set: {}}}{}{}\n", reason ? "# " : "", quoted(new_word(set, names), file),
+                        quoted(set, file), reason ? "  # " : "", reason ? reason : "");
     if (reason) continue;
+    any = true;
     for (const int p : points) taken[static_cast<std::size_t>(p)] = true;
   }
-  if (!names.empty()) return text;
+  if (any) return text;
   const bool any_held = std::ranges::find(held, true) != held.end();
-  return text + fmt::format("      root: {}\n", any_held ? free_point(mesh, held) : "{nearest: [0, 0, 0]}");
+  return text + fmt::format("      {}: {}\n", new_word("root", names),
+                            any_held ? free_point(mesh, held) : "{nearest: [0, 0, 0]}");
 }
 
 /// Sets of lines along edges of shells, as comments: stiffeners, or where a shell is held or joined.
-std::string edge_lines(const fem::Mesh& mesh, const std::filesystem::path& file) {
+std::string edge_lines(const fem::Mesh& mesh, const std::filesystem::path& file, std::set<std::string>& names) {
   using Edge = std::pair<int, int>;
   const auto edge = [](int a, int b) { return Edge(std::min(a, b), std::max(a, b)); };
   std::set<Edge> edges;
@@ -160,7 +168,7 @@ std::string edge_lines(const fem::Mesh& mesh, const std::filesystem::path& file)
     }
     if (along_edges && !mesh.point_sets.contains(set))
       text += fmt::format("      # {}: {{set: {}}}  # lines along edges: a port, if it has no section above\n",
-                          quoted(as_word(set), file), quoted(set, file));
+                          quoted(new_word(set, names), file), quoted(set, file));
   }
   return text;
 }
@@ -213,18 +221,20 @@ std::string scene_for(const fem::Mesh& mesh, const std::string& contents, const 
 }
 
 std::string scene_of(const std::filesystem::path& file, InputKind kind, const std::filesystem::path& scene) {
+  std::set<std::string> names;
   if (kind == InputKind::deck) {
     const fem::Deck deck = fem::read_deck(file, true);
-    return scene_for(deck.mesh, deck_lines(deck.model, file),
-                     port_lines(deck.mesh, held_points(deck.mesh, deck.model), file), file, scene);
+    const std::string ports = port_lines(deck.mesh, held_points(deck.mesh, deck.model), file, names);
+    return scene_for(deck.mesh, deck_lines(deck.model, file), ports, file, scene);
   }
   const fem::Mesh mesh = fem::read_mesh(file);
-  return scene_for(mesh,
-                   "    material: aluminium         # or steel, titanium, {E: ..., nu: ..., rho: ...}\n"
-                   "    sections:                   # one for each set of cells\n" +
-                       section_lines(mesh, file),
-                   port_lines(mesh, std::vector<bool>(mesh.points.size(), false), file) + edge_lines(mesh, file), file,
-                   scene);
+  const std::string sections =
+      "    material: aluminium         # or steel, titanium, {E: ..., nu: ..., rho: ...}\n"
+      "    sections:                   # one for each set of cells\n" +
+      section_lines(mesh, file);
+  std::string ports = port_lines(mesh, std::vector<bool>(mesh.points.size(), false), file, names);
+  ports += edge_lines(mesh, file, names);
+  return scene_for(mesh, sections, ports, file, scene);
 }
 
 }  // namespace

@@ -283,6 +283,13 @@ TEST_F(Cli, InitWritesScenesForEveryFormat) {
                 "1 3 2 1 1 1 2 3 4\n2 1 2 2 2 4 1\n3 1 2 3 3 1 3\n$EndElements\n");
   EXPECT_THAT(check("rim.msh"), AllOf(HasSubstr("      # rim: {set: rim}  # lines along edges"),
                                       Not(HasSubstr("# brace")), HasSubstr("brace: {tube"), HasSubstr("rim: {tube")));
+  folder_.write("alike.msh",
+                "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n4\n2 1 \"skin\"\n1 2 \"rim a\"\n"
+                "1 3 \"rim_a\"\n1 4 \"root\"\n$EndPhysicalNames\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n"
+                "$EndNodes\n$Elements\n4\n1 3 2 1 1 1 2 3 4\n2 1 2 2 2 4 1\n3 1 2 3 3 1 2\n4 1 2 4 4 3 4\n"
+                "$EndElements\n");
+  EXPECT_THAT(check("alike.msh"), AllOf(HasSubstr("      root: {nearest"), HasSubstr("# rim_a: {set: \"rim a\"}"),
+                                        HasSubstr("# rim_a_: {set: rim_a}"), HasSubstr("# root_: {set: root}")));
   folder_.write("block.vtk",
                 "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n"
                 "0 0 0 1 0 0 1 1 0 0 1 1\nCELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n");
