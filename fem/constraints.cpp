@@ -87,6 +87,11 @@ class Elimination {
     const auto note = [&](ConstraintNote::Kind kind, int dof, double figure = 0.0) {
       notes.push_back({kind, link_name(row), {dof / 6, dof % 6}, figure});
     };
+    for (const Term& t : row.terms)
+      if (!std::isfinite(t.c))
+        throw ModelError(fmt::format("{}: the {} {} has a coefficient that is not finite, at {}", model.source,
+                                     row.kind, row.id, name(model, {t.dof / 6, t.dof % 6})),
+                         "Give it a number");
     const std::vector<Term> terms = reduced(row.terms);
     if (terms.empty()) {
       if (row.dependent >= 0) note(ConstraintNote::Kind::redundant, row.dependent);
@@ -232,7 +237,7 @@ Mat6X averaging_matrix(const Model& model, const AverageLink& link) {
     }
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(Eigen::MatrixXd{normal});
-  if (eigen.eigenvalues()(0) <= 1e-12 * eigen.eigenvalues()(5))
+  if (!(eigen.eigenvalues()(0) > 1e-12 * eigen.eigenvalues()(5)))
     throw ModelError(
         fmt::format(
             "{}: the averaging link {} at node {} has nodes that do not determine a rigid motion (condition {:.1e})",

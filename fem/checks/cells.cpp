@@ -44,7 +44,7 @@ void add_element(Cells& cells, const E& e, int kind) {
     for (std::size_t i = 0; i < count; ++i) tie(cells, e.nodes[0], e.nodes[i]);
     cell.size = static_cast<int>(std::min<std::size_t>(count, 4));
     for (std::size_t i = 0; i < static_cast<std::size_t>(cell.size); ++i) cell.corners[i] = e.nodes[i];
-    if constexpr (requires { e.section + e.material; }) cell.property = 65536 * e.section + e.material;
+    if constexpr (requires { e.section + e.material; }) cell.property = {e.section, e.material};
     cells.cells.push_back(cell);
   } else if constexpr (requires { e.node_a; }) {
     tie(cells, e.node_a, e.node_b >= 0 ? e.node_b : e.node_a);

@@ -16,8 +16,8 @@ struct Cell {
   std::array<int, 4> corners{};
   int size = 0;  ///< 1 point, 2 line, 3 triangle, 4 quad
   long id = 0;
-  int kind = 0;      ///< cells of two kinds are no duplicates of each other
-  int property = 0;  ///< section and material as one number
+  int kind = 0;                   ///< cells of two kinds are no duplicates of each other
+  std::array<int, 2> property{};  ///< section, material
 };
 
 struct Cells {

@@ -28,7 +28,7 @@ void check_mass_by_direction(const Structure& s, const CheckLimits& limits, std:
   const Eigen::MatrixXd R = rigid_motions(s, Vec3::Zero()).leftCols<3>();
   const Vec3 m = (R.transpose() * (s.M.selfadjointView<Eigen::Lower>() * R)).diagonal();
   const double least = m.minCoeff(), most = m.maxCoeff();
-  if (most - least > limits.mass * most)
+  if (!(most - least <= limits.mass * most))
     findings.push_back({.severity = Severity::error,
                         .check = "mass_by_direction",
                         .what = fmt::format("the mass is {:.6g} in x, {:.6g} in y, {:.6g} in z", m.x(), m.y(), m.z()),
@@ -99,12 +99,12 @@ void check_grounding(const Structure& s, const CheckLimits& limits, std::vector<
     double ratio = 0.0;
     Eigen::Index motion = 0;
     for (Eigen::Index j = 0; j < 6; ++j)
-      if (size(i, j) > 0.0 && std::abs(F(i, j)) / size(i, j) > ratio) {
+      if (size(i, j) != 0.0 && !(std::abs(F(i, j)) / size(i, j) <= ratio) && !std::isnan(ratio)) {
         ratio = std::abs(F(i, j)) / size(i, j);
         motion = j;
       }
     worst = std::max(worst, ratio);
-    if (ratio > limits.grounding)
+    if (!(ratio <= limits.grounding))
       places.add(ratio, fmt::format("{} ({:.3g} per unit {})", s.dofs.names[static_cast<std::size_t>(i)], F(i, motion),
                                     motion_names[static_cast<std::size_t>(motion)]));
   }

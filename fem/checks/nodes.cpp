@@ -129,7 +129,7 @@ void check_duplicates(const Cells& cells, const CheckLimits& limits, std::vector
   struct Key {
     int kind, size;
     std::array<int, 4> nodes;
-    int property;
+    std::array<int, 2> property;
     std::size_t cell;
     auto operator<=>(const Key&) const = default;
     bool same_place(const Key& o) const { return kind == o.kind && size == o.size && nodes == o.nodes; }

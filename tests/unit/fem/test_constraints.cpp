@@ -157,3 +157,16 @@ TEST(Constraints, AScalarPointCarriesAnAngle) {
   u(6) = 2.0;  // the angle alone
   EXPECT_LT((map.expand_node(1, u).bottomRows<3>() - 2.0 * axis).norm(), 1e-15);
 }
+
+TEST(Constraints, CoefficientsThatAreNotNumbersAreRefused) {
+  for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+    Model model = nodes_at({Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY()});
+    model.constraints.push_back({{{{0, 0}, 1.0}, {{1, 0}, bad}}, 8});
+    EXPECT_THAT([&] { eliminate_all_used(model); },
+                testing::ThrowsMessage<ModelError>(testing::HasSubstr(
+                    "test: the linear constraint 8 has a coefficient that is not finite, at node 2 ux")));
+    model.constraints.clear();
+    model.average_links.push_back({0, all_six, {{1, bad, 0b111}, {2, 1.0, 0b111}}, 9});
+    EXPECT_THROW(eliminate_all_used(model), ModelError);
+  }
+}
