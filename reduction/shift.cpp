@@ -84,7 +84,10 @@ Eigen::MatrixXd null_motions(const fem::SparseMatrix& K, const fem::SparseMatrix
 }
 
 double lambda_noise(const fem::SparseMatrix& K, const Eigen::VectorXd& x, double modal_mass) {
-  return epsilon * x.cwiseAbs().dot(absolute_product(K, x)) / modal_mass;
+  const double terms = x.cwiseAbs().dot(absolute_product(K, x));
+  // where x should lie in empty rows of K, what of it rounding has put into the others is all that terms has
+  const double strays = epsilon * x.cwiseAbs2().maxCoeff() * K.diagonal().cwiseAbs().maxCoeff();
+  return epsilon * std::max(terms, strays) / modal_mass;
 }
 
 int free_row(const fem::SparseMatrix& K, const Factor& factor) {
@@ -122,11 +125,14 @@ double first_flexible(const fem::SparseMatrix& K, const fem::SparseMatrix& M, co
   const Eigen::MatrixXd X = op.shapes(run.vectors);
   double least = std::numeric_limits<double>::infinity();
   for (Eigen::Index j = 0; j < X.cols(); ++j) {
-    const Eigen::VectorXd x = X.col(j);
-    const double mass = x.dot(symmetric_product(M, x).col(0));
+    const Eigen::VectorXd x = X.col(j), Kx = symmetric_product(K, x), Mx = symmetric_product(M, x);
+    const double mass = x.dot(Mx);
     if (!(run.ritz.theta[j] > 1e-12 * run.ritz.theta[0])) continue;  // infinite modes
-    const double lambda = x.dot(symmetric_product(K, x).col(0)) / mass;
-    if (lambda > 1e4 * lambda_noise(K, x, mass)) least = std::min(least, lambda);
+    const double lambda = x.dot(Kx) / mass;
+    // A motion without stiffness shows what has not left it yet, λ = Σ c² λ_k. Its residual, squared, in the norm of
+    // A⁻¹ and over |x|²_A, says the same: s Σ c² λ_k² / (λ_k + s) / s.
+    const double left = at.factor.half_solve(Kx - lambda * Mx).squaredNorm() / (mass * (lambda + at.s)) * at.s;
+    if (lambda > 1e4 * lambda_noise(K, x, mass) && lambda > 2.0 * left) least = std::min(least, lambda);
   }
   return least;
 }

@@ -179,6 +179,42 @@ TEST(Modes, AMotionWithoutStiffnessOrMassIsRefused) {
   EXPECT_THROW(solve_modes(p.K, p.M, candidate, {.count = 1}), ModelError);
 }
 
+// A membrane's or a truss's dofs across it: masses of their own that nothing holds, between those of a chain.
+TEST(Modes, MassesThatNothingHoldsAreZeroModes) {
+  constexpr int n = 84;
+  const Pencil chain = uniform_chain(n, 3e9, 0.5, true, false);
+  std::vector<Eigen::Triplet<double>> k, m;
+  for (int j = 0; j < n; ++j)
+    for (fem::SparseMatrix::InnerIterator it(chain.K, j); it; ++it)
+      k.emplace_back(2 * static_cast<int>(it.row()), 2 * j, it.value());
+  for (int i = 0; i < 2 * n; ++i) m.emplace_back(i, i, 0.5);
+  fem::SparseMatrix K(2 * n, 2 * n), M(2 * n, 2 * n);
+  K.setFromTriplets(k.begin(), k.end());
+  M.setFromTriplets(m.begin(), m.end());
+  for (const int dense_below : {0, 600}) {
+    ModesOptions options{.count = n + 16};
+    options.dense_below = dense_below;
+    const Modes modes = solve_modes(K, M, none, options);
+    EXPECT_EQ(modes.rigid, n);
+    for (int j = 0; j < 16; ++j) {
+      const double s = std::sin((2 * j + 1) * std::numbers::pi / (2.0 * (2 * n + 1)));
+      EXPECT_NEAR(modes.lambda[n + j] / (4.0 * 6e9 * s * s), 1.0, 1e-11) << j;
+    }
+  }
+}
+
+// A mass at the end of an arm on a spring, free to turn: the spring carries m − m² e² / (J + m e²) = m J / (J + m e²).
+TEST(Modes, AnArmThatNothingTurnsTakesMassAway) {
+  fem::SparseMatrix K(2, 2), M(2, 2);
+  K.insert(0, 0) = 1000.0;
+  M.insert(0, 0) = 2.0;
+  M.insert(1, 0) = 2.0 * 0.1;
+  M.insert(1, 1) = 0.01 + 2.0 * 0.01;
+  const Modes modes = solve_modes(K, M, none, {.count = 2});
+  EXPECT_EQ(modes.rigid, 1);
+  EXPECT_NEAR(modes.lambda[1], 1000.0 / (2.0 * 0.01 / 0.03), 1e-9);
+}
+
 TEST(Modes, SizesMustAgree) {
   const Pencil p = grid(3, 3), q = grid(2, 2);
   EXPECT_THROW(solve_modes(p.K, q.M, none, {}), ModelError);
