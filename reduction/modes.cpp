@@ -240,6 +240,8 @@ void require_sizes(const fem::SparseMatrix& K, const fem::SparseMatrix& M, const
     throw ModelError(fmt::format("K is {}×{}, M {}×{}, the rigid motions {}×{}: they do not belong together", K.rows(),
                                  K.cols(), M.rows(), M.cols(), rigid.rows(), rigid.cols()),
                      "Pass square matrices of one size");
+  if (!K.isCompressed() || !M.isCompressed())
+    throw ModelError("K or M still has room between its columns", "Call makeCompressed() on both");
 }
 
 // The pairs as modes, `returned` of them with the rigid ones, orthonormality and residuals checked.

@@ -205,14 +205,19 @@ TEST(Modes, MassesThatNothingHoldsAreZeroModes) {
 
 // A mass at the end of an arm on a spring, free to turn: the spring carries m − m² e² / (J + m e²) = m J / (J + m e²).
 TEST(Modes, AnArmThatNothingTurnsTakesMassAway) {
-  fem::SparseMatrix K(2, 2), M(2, 2);
-  K.insert(0, 0) = 1000.0;
-  M.insert(0, 0) = 2.0;
-  M.insert(1, 0) = 2.0 * 0.1;
-  M.insert(1, 1) = 0.01 + 2.0 * 0.01;
-  const Modes modes = solve_modes(K, M, none, {.count = 2});
+  const Pencil p{lower(2, {{0, 0, 1000.0}}), lower(2, {{0, 0, 2.0}, {1, 0, 2.0 * 0.1}, {1, 1, 0.01 + 2.0 * 0.01}})};
+  const Modes modes = solve_modes(p.K, p.M, none, {.count = 2});
   EXPECT_EQ(modes.rigid, 1);
-  EXPECT_NEAR(modes.lambda[1], 1000.0 / (2.0 * 0.01 / 0.03), 1e-9);
+  EXPECT_NEAR(modes.lambda[1], 1000.0 / (2.0 * 0.01 / 0.03), 1e-8);
+}
+
+TEST(Modes, MatricesUnderWayAreRefused) {
+  fem::SparseMatrix K(2, 2), M(2, 2);
+  K.insert(0, 0) = K.insert(1, 1) = 1.0;
+  M.setIdentity();
+  EXPECT_THROW(solve_modes(K, M, none, {.count = 1}), ModelError);
+  K.makeCompressed();
+  EXPECT_EQ(solve_modes(K, M, none, {.count = 1}).lambda[0], 1.0);
 }
 
 TEST(Modes, SizesMustAgree) {
