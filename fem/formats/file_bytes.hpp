@@ -30,4 +30,9 @@ class MappedFile {
   std::size_t size_ = 0;
 };
 
+/// Without the mark that some editors put before UTF-8 text.
+inline std::string_view without_byte_order_mark(std::string_view text) {
+  return text.starts_with("\xEF\xBB\xBF") ? text.substr(3) : text;
+}
+
 }  // namespace tenon::fem

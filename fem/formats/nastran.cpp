@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 
@@ -26,14 +27,19 @@ Assignment assignment(const std::string& statement) {
   return result;
 }
 
+/// Nastran looks at the first four letters of a command.
+bool is_command(const Assignment& a, std::string_view command) {
+  return std::string_view(a.key).substr(0, 4) == command.substr(0, 4);
+}
+
 /// A set that case control selects: for all subcases alike, or not at all.
 std::optional<Choice> choice(const Text& text, const std::string& key) {
   std::optional<Choice> global;
   std::vector<std::optional<Choice>> subcases;
   for (const CaseStatement& statement : text.case_control) {
     const Assignment a = assignment(statement.text);
-    if (a.key == "SUBCASE" || a.key == "SUBCOM") subcases.push_back(global);
-    if (a.key != key) continue;
+    if (is_command(a, "SUBCASE") || is_command(a, "SUBCOM")) subcases.push_back(global);
+    if (!is_command(a, key)) continue;
     const auto set = parse_integer(a.value);
     if (!set || *set <= 0)
       throw InputError(statement.place, fmt::format("found {} = '{}', expected the number of a set", key, a.value),
@@ -49,7 +55,7 @@ std::optional<Choice> choice(const Text& text, const std::string& key) {
           named.place,
           fmt::format("the subcases select different {} sets ({} and {}, 0 is none): which model is meant?", key,
                       number(subcases.front()), number(subcase)),
-          "Keep one subcase, or choose the set by option");
+          fmt::format("Keep one subcase, or one {} for all", key));
     }
   return subcases.front();
 }
@@ -57,11 +63,21 @@ std::optional<Choice> choice(const Text& text, const std::string& key) {
 /// Statements of case control that add matrices or stress stiffness.
 void refuse_direct_input(Draft& draft, const Text& text) {
   for (const CaseStatement& statement : text.case_control) {
-    const std::string key = assignment(statement.text).key;
+    const Assignment a = assignment(statement.text);
     for (const char* bad : {"K2GG", "M2GG", "K2PP", "M2PP", "STATSUB"})
-      if (key == bad)
+      if (is_command(a, bad))
         draft.losses.add_physical(std::string("case control ") + bad, "it adds to stiffness or mass", statement.place);
   }
+}
+
+/// Whether materials take values at a temperature: TEMPERATURE(MATERIAL), (INITIAL), (BOTH).
+bool selects_material_temperature(const Text& text) {
+  return std::ranges::any_of(text.case_control, [](const CaseStatement& statement) {
+    const std::size_t open = statement.text.find('(');
+    if (!is_command(assignment(statement.text), "TEMPERATURE") || open == std::string::npos) return false;
+    const std::string of = upper(std::string(trim(std::string_view(statement.text).substr(open + 1))).substr(0, 4));
+    return of.starts_with("MAT") || of.starts_with("INI") || of.starts_with("BOT");
+  });
 }
 
 /// PARAM cards, and PARAM statements of case control: name, value, place.
@@ -84,13 +100,17 @@ std::vector<Parameter> parameters(Draft& draft, const Text& text) {
       else if (!std::isspace(static_cast<unsigned char>(c)))
         words[n] += c;
     }
-    all.push_back({words[1], words[2], statement.place});
+    if (words[1].empty() || words[2].empty())
+      throw InputError(statement.place, fmt::format("found '{}', expected PARAM, name, value", statement.text),
+                       "Write commas between the three");
+    all.push_back({upper(words[1]), words[2], statement.place});
   }
   return all;
 }
 
 std::string note_on(const std::string& parameter) {
-  if (parameter == "AUTOSPC") return "dofs without stiffness and mass are left out in any case";
+  if (parameter == "AUTOSPC")
+    return "`tenon modes` of the deck holds what has no stiffness, a body in a scene does not";
   if (parameter == "GRDPNT") return "mass, centre and inertia are always available";
   if (parameter == "K6ROT") return "the drilling stiffness of shells is the program's own";
   return "no effect on K and M";
@@ -99,6 +119,7 @@ std::string note_on(const std::string& parameter) {
 void read_parameters(Draft& draft, const Text& text) {
   std::map<std::string, Parameter> used;
   for (const Parameter& p : parameters(draft, text)) {
+    if (p.name == "AUTOSPC") draft.deck.auto_spc = upper(p.value) != "NO";
     if (p.name != "COUPMASS" && p.name != "WTMASS") {
       draft.losses.add("PARAM " + p.name, note_on(p.name));
       continue;
@@ -147,7 +168,8 @@ NastranDeck read_nastran(const std::filesystem::path& path, const NastranOptions
   deck.mesh.format = "nastran bulk data";
   sort_cards(text, draft);
   for (const CaseStatement& statement : text.case_control)
-    if (const Assignment a = assignment(statement.text); a.key == "TITLE" && deck.title.empty()) deck.title = a.value;
+    if (const Assignment a = assignment(statement.text); is_command(a, "TITLE") && deck.title.empty())
+      deck.title = a.value;
   if (text.has_case_control && !text.ended)
     draft.losses.add_physical("ENDDATA", "it is missing: the file may be cut off, with cards lost", text.end);
 
@@ -155,6 +177,7 @@ NastranDeck read_nastran(const std::filesystem::path& path, const NastranOptions
   draft.selection.has_case_control = text.has_case_control;
   draft.selection.spc = options.spc_set ? Choice{*options.spc_set, chosen} : choice(text, "SPC");
   draft.selection.mpc = options.mpc_set ? Choice{*options.mpc_set, chosen} : choice(text, "MPC");
+  draft.selection.material_temperature = selects_material_temperature(text);
   refuse_direct_input(draft, text);
 
   read_parameters(draft, text);

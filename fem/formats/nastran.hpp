@@ -38,6 +38,7 @@ struct NastranDeck {
   std::string title;                ///< TITLE of the case control
   bool coupled_mass = false;        ///< PARAM,COUPMASS > 0
   double mass_factor = 1.0;         ///< PARAM,WTMASS, already applied
+  bool auto_spc = true;             ///< unless PARAM,AUTOSPC,NO: hold_singular_directions gives Nastran's own solution
 };
 
 /// Reads a deck with everything it includes.
@@ -66,11 +67,11 @@ struct NastranDeck {
 /// Damping (B, GE, CDAMP, CVISC) stands in the losses. Negative masses, stiffnesses and constants are refused at their
 /// field.
 ///
-/// Scalar points. An SPOINT that springs or the selected MPCs name becomes a node whose first dof is the scalar; others
-/// only stand in the losses. A scalar of the q-set is a coordinate of the reduced body, not a dof of the model: it has
-/// no stiffness and no mass, stays zero in a fixed-interface run, and an equation between it and a grid that no element
-/// uses recovers that grid's motion without touching the structure. An equation that would give it stiffness is
-/// refused.
+/// Scalar points. An SPOINT, or the end of a CELAS3 or CELAS4, that springs or the selected MPCs name becomes a node
+/// whose first dof is the scalar; others only stand in the losses. A scalar of the q-set is a coordinate of the reduced
+/// body, not a dof of the model: it has no stiffness and no mass, stays zero in a fixed-interface run, and an equation
+/// between it and a grid that no element uses recovers that grid's motion without touching the structure. An equation
+/// that would give it stiffness is refused.
 ///
 /// Throws InputError with file, line and column for everything that cannot be understood, and for every card that would
 /// change stiffness or mass if it were read past (unless `allow_losses`).

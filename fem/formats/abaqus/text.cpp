@@ -101,7 +101,7 @@ void Reader::file(const fs::path& path, const Place& asked_at) {
                      "Check the name; it is relative to the deck's folder");
   text_.files.push_back({path.string(), MappedFile(path)});
   const Source& source = text_.files.back();
-  std::string_view rest = source.pages.bytes();
+  std::string_view rest = without_byte_order_mark(source.pages.bytes());
   if (rest.empty()) throw InputError({source.name}, "the file is empty", "Write it again");
   require_text(rest, source.name);
   if (rest.starts_with("\xEF\xBB\xBF")) rest.remove_prefix(3);

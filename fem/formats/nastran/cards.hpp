@@ -34,7 +34,9 @@ struct CardSpan {
 /// A file of the deck, tabs expanded to the columns they stand for.
 struct SourceFile {
   SourceFile(std::string as_named, const std::filesystem::path& path);
-  std::string_view text() const { return expanded.empty() ? pages.bytes() : std::string_view(expanded); }
+  std::string_view text() const {
+    return expanded.empty() ? without_byte_order_mark(pages.bytes()) : std::string_view(expanded);
+  }
 
   std::string name;  ///< as in messages
   MappedFile pages;

@@ -178,7 +178,8 @@ std::vector<Card> selected(Draft& draft, const char* kind, const std::vector<Car
       continue;
     }
     by_add = true;
-    for (const Range& range : draft.ranges(card, 2)) wanted.insert(range.first);
+    for (int i = 2; i <= card.size(); ++i)
+      if (!card.blank(i)) wanted.insert(card.id(i, "S"));
   }
   if (choice && !by_add) wanted.insert(choice->set);
 
@@ -191,7 +192,10 @@ std::vector<Card> selected(Draft& draft, const char* kind, const std::vector<Car
     else if (choice || draft.selection.has_case_control)
       draft.losses.add(set_kind(kind, id), "set that is not selected");
     else
-      draft.losses.add_physical(set_kind(kind, id), "there is no case control to select it", card.place());
+      draft.losses.add_physical(
+          set_kind(kind, id),
+          fmt::format("no case control selects it: write 'CEND', '{} = {}' and 'BEGIN BULK' above the cards", kind, id),
+          card.place());
   }
   for (const long id : wanted)
     if (!present.contains(id))

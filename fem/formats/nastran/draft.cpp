@@ -133,6 +133,12 @@ std::vector<int> Draft::nodes_in(const Range& range, const Card& card) const {
 }
 
 void read_scalar_points(Draft& draft) {
+  for (const char* name : {"CELAS3", "CELAS4"})  // what they name is a scalar point without an SPOINT
+    if (const auto cards = draft.cards.find(name); cards != draft.cards.end())
+      for (const Card& card : cards->second)
+        for (const int field : {3, 4})
+          if (const auto id = parse_integer(card.at(field)); id && *id > 0 && !draft.node_of.find(*id))
+            draft.scalars.points.push_back({*id, *id});
   for (const Card& card : draft.take("SPOINT"))
     for (const Range& range : draft.ranges(card, 1)) {
       draft.scalars.points.push_back(range);

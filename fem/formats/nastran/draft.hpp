@@ -106,6 +106,7 @@ struct Choice {
 struct Selection {
   std::optional<Choice> spc, mpc;
   bool has_case_control = false;
+  bool material_temperature = false;  ///< TEMPERATURE(MATERIAL), (INITIAL), (BOTH)
 };
 
 /// A coordinate system in the basic frame.

@@ -146,6 +146,10 @@ void read_boundary(Draft& draft) {
       const unsigned bits = card.components(1, "C");
       for (const Range& range : draft.ranges(card, 2)) add(card, range, bits);
     }
+  if (!components.empty())
+    draft.losses.add("ASET",
+                     "boundary of a reduced body; Nastran's frequencies are those of the static condensation to "
+                     "it, the deck's own here those of all its dofs");
   for (const auto& [node, bits] : components)
     if (bits != all_six)
       draft.losses.add("ASET/BSET", "some directions of a grid only: as a boundary node it takes all six");

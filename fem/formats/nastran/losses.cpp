@@ -21,14 +21,15 @@ constexpr std::array<Harmless, 11> harmless{{
      "SPCD DEFORM TEMP TEMPD TEMPRB TEMPP1 TEMPF LSEQ DAREA DLOAD DELAY DPHASE TLOAD1 TLOAD2 RLOAD1 RLOAD2 ACSRCE "
      "RANDPS RANDT1 TIC",
      "loads are no part of K and M"},
-    {"TABLED* TABLEM* TABLES1 TABLEST TABRND* TABDMP1 MATT1 MATS1 CREEP", "tables and what depends on them"},
+    {"TABLED* TABLEM* TABLES1 TABLEST TABRND* TABDMP1 MATT* MATS1 CREEP", "tables and what depends on them"},
     {"FREQ FREQ1 FREQ2 FREQ3 FREQ4 FREQ5 TSTEP TSTEPNL NLPARM NLPCI NLSTEP RCROSS",
      "steps of a solution that is not run here"},
     {"CDAMP* PDAMP PDAMP5 PDAMPT CVISC PVISC", "dampers are no part of K and M"},
     {"PBUSHT PELAST",
      "tables of springs over frequency or force: their nominal stiffness counts, as in Nastran's modes"},
     {"SUPORT SUPORT1 SUPAX", "the rigid motions are found without being named"},
-    {"CSET CSET1 OMIT OMIT1 USET USET1 SESET", "a partition of the dofs for Nastran's own reduction"},
+    {"CSET CSET1 OMIT OMIT1 USET USET1 SESET",
+     "a partition of the dofs for Nastran's own reduction: the frequencies here are those of all dofs"},
     {"PLOTEL PLOTEL3 PLOTEL4 SET1 SET3 GROUP ECHOON ECHOOFF DTI MDLPRM", "pictures, sets and output"},
     {"SEQGP EPOINT NOLIN* TF", "numbering and control systems"},
     {"DESVAR DRESP* DCONSTR DCONADD DVPREL* DVMREL* DVCREL* DVGRID DVSHAP DOPTPRM DLINK DEQATN DSCREEN DTABLE DESGLB",
@@ -59,7 +60,10 @@ void classify_rest(Draft& draft) {
     const std::string& name = card_name;  // a lambda of C++20 by clang 14 captures no structured binding
     for (const Card& card : cards) {
       const auto group = std::ranges::find_if(harmless, [&](const Harmless& h) { return listed(h.names, name); });
-      if (group != harmless.end())
+      if (name.starts_with("MATT") && draft.selection.material_temperature)
+        draft.losses.add_physical(name, "case control selects a temperature of materials, which it is for",
+                                  card.place());
+      else if (group != harmless.end())
         draft.losses.add(name, std::string(group->note));
       else if (listed(structural, name))
         draft.losses.add_physical(name, "it adds or defines stiffness or mass and is not read", card.place());

@@ -158,7 +158,7 @@ void read_scalar_springs(Draft& draft, Register& elements) {
       const auto end = [&](int field, const char* label) -> End {
         const long id = card.integer(field, label, 0);
         if (id == 0) return {};
-        if (!draft.scalars.contains(id)) card.fail(field, label, "the number of an SPOINT");
+        if (!draft.scalars.contains(id)) card.fail(field, label, "a scalar point, which no GRID is");
         return scalar_end(draft, card, id, {3, 4});
       };
       add_spring(draft, card, k, end(3, "S1"), end(4, "S2"));

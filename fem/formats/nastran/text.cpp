@@ -400,7 +400,8 @@ void Reader::close_card() {
 
 SourceFile::SourceFile(std::string as_named, const fs::path& path) : name(std::move(as_named)), pages(path) {
   require_text(pages.bytes(), name);
-  if (pages.bytes().find('\t') != std::string_view::npos) expanded = with_tabs_expanded(pages.bytes());
+  if (pages.bytes().find('\t') != std::string_view::npos)
+    expanded = with_tabs_expanded(without_byte_order_mark(pages.bytes()));
   pages.release(pages.bytes().size());
 }
 

@@ -129,6 +129,9 @@ TEST(NastranLinks, CaseControlSelects) {
   EXPECT_EQ(some.model.constraints[0].terms[0].dof.direction, 1);
   EXPECT_THAT(refusal("CEND\nSUBCASE 1\nSPC=1\nSUBCASE 2\nSPC=2\n" + bulk),
               HasSubstr("deck.bdf:5: the subcases select different SPC sets"));
+  EXPECT_THAT(refusal("CEND\nSUBC 1\nSPC=1\nSUBCAS 2\nSPC=2\n" + bulk),
+              HasSubstr("deck.bdf:5: the subcases select different SPC sets"))
+      << "the first four letters";
   EXPECT_THAT(refusal("CEND\nSPC=ALL\n" + bulk), HasSubstr("expected the number of a set"));
   EXPECT_THAT(refusal("CEND\nMPC=9\n" + bulk), HasSubstr("deck.bdf:2: MPC set 9 is selected"));
   EXPECT_THAT(refusal("CEND\nK2GG=STIF\n" + bulk), HasSubstr("K2GG"));
@@ -138,9 +141,16 @@ TEST(NastranLinks, CaseControlSelects) {
             1);
 }
 
+TEST(NastranLinks, SetsAreAddedOneByOne) {
+  const std::string bulk = "BEGIN BULK\nGRID,1\nGRID,2,,1.\nSPC1,1,1,1\nSPC1,2,2,1\nSPCADD,7,1,";
+  EXPECT_EQ(read_deck("CEND\nSPC=7\n" + bulk + "2\nENDDATA\n").model.supports.size(), 2U);
+  EXPECT_THAT(refusal("CEND\nSPC=7\n" + bulk + "THRU,2\nENDDATA\n"),
+              HasSubstr("deck.bdf:8:12: SPCADD field S is 'THRU'"));
+}
+
 TEST(NastranLinks, WithoutCaseControlASetMustBeChosen) {
-  EXPECT_THAT(refused("SPC1,1,123,1\n"), HasSubstr("no case control to select it"));
-  EXPECT_THAT(refused("MPC,1,1,1,1.,2,1,-1.\n"), HasSubstr("no case control to select it"));
+  EXPECT_THAT(refused("SPC1,1,123,1\n"), HasSubstr("no case control selects it: write"));
+  EXPECT_THAT(refused("MPC,1,1,1,1.,2,1,-1.\n"), HasSubstr("no case control selects it: write"));
   EXPECT_TRUE(read_model("SPC1,1,123,1\n", {.allow_losses = true, .spc_set = {}, .mpc_set = {}}).supports.empty());
 }
 

@@ -81,3 +81,22 @@ TEST(NastranRefusals, EveryPrefixOfADeckIsReadOrRefusedButNeverCrashes) {
   for (std::size_t n = 0; n < complete; ++n)
     EXPECT_THROW(read_nastran(folder.write("deck.bdf", deck.substr(0, n))), InputError) << deck.substr(0, n);
 }
+
+// The tables of MATT1 replace E at the temperature that case control selects for materials.
+TEST(NastranRefusals, MaterialsAtATemperature) {
+  const std::string bulk =
+      "BEGIN BULK\nGRID,1\nMAT1,1,7.+10,,.3\nMATT1,1,8\nTABLEM1,8\n,0.,1.,ENDT\nTEMPD,5,400.\nENDDATA\n";
+  EXPECT_EQ(lost(read_deck("CEND\nTEMP(LOAD)=5\n" + bulk).mesh, "MATT1"), 1);
+  for (const char* selection : {"TEMPERATURE(MATERIAL) = 5", "TEMP (INIT)=5", "temp(both)=5"})
+    EXPECT_THAT(refusal(std::string("CEND\n") + selection + "\n" + bulk),
+                HasSubstr("deck.bdf:6: reading on would change stiffness or mass: MATT1"))
+        << selection;
+}
+
+TEST(NastranRefusals, ParametersOfCaseControl) {
+  const std::string bulk = "BEGIN BULK\nGRID,1\nENDDATA\n";
+  EXPECT_EQ(read_deck("CEND\nPARAM,WTMASS,.5\n" + bulk).mass_factor, 0.5);
+  EXPECT_THAT(refusal("CEND\nPARAM WTMASS .5\n" + bulk), HasSubstr("deck.bdf:2: found 'PARAM WTMASS .5'"));
+  EXPECT_FALSE(read_deck("CEND\nPARAM,AUTOSPC,NO\n" + bulk).auto_spc);
+  EXPECT_TRUE(read_deck("CEND\n" + bulk).auto_spc);
+}

@@ -123,7 +123,7 @@ TEST(NastranSprings, FaultsAreRefusedByNameAndPlace) {
   EXPECT_THAT(says("CELAS2,1,-5.,1,1\n"), HasSubstr("CELAS2 field K is '-5.'"));
   EXPECT_THAT(says("CELAS2,1,5.\n"), HasSubstr("joins ground to ground"));
   EXPECT_THAT(says("CELAS2,1,5.,1,1,1,1\n"), HasSubstr("joins a dof to itself"));
-  EXPECT_THAT(says("CELAS4,1,5.,1\n"), HasSubstr("the number of an SPOINT"));
+  EXPECT_THAT(says("CELAS4,1,5.,1\n"), HasSubstr("a scalar point, which no GRID is"));
   EXPECT_THAT(says("SPOINT,20\nQSET1,,20\nCELAS4,1,5.,20\n"), HasSubstr("q-set"));
   EXPECT_THAT(says(p + "CBUSH,8,5,1,2\n"), HasSubstr("K2, K3, K5 and K6 need axes"));
   EXPECT_THAT(says(p + "CBUSH,8,5,1,3\n"), HasSubstr("coincident grids and ground give no axes"));
@@ -185,4 +185,10 @@ TEST(NastranRods, FaultsAreRefusedByNameAndPlace) {
   EXPECT_THAT(says("PTUBE,5,1,.1,.06\n"), HasSubstr("at most half of OD"));
   EXPECT_THAT(says("PTUBE,5,1,.1,.01,,.2\n"), HasSubstr("PTUBE OD2"));
   EXPECT_THAT(says("CONROD,5,1,2,1\n"), HasSubstr("above zero here or in field J"));
+}
+
+TEST(NastranSprings, WhatTheyNameIsAScalarPointWithoutACard) {
+  const Model model = read_deck("GRID,1\nCELAS4,1,5.,1001\nCELAS4,2,3.,1001,1002\n").model;
+  EXPECT_EQ(model.scalar_points.size(), 2U);
+  EXPECT_EQ(elements_of<Spring>(model).size(), 2U);
 }

@@ -189,3 +189,8 @@ TEST(NastranText, FilesThatAreNoDeckAreRefused) {
   EXPECT_THAT(refusal("$MeshFormat\n2.2 0 8\n"), HasSubstr("found '2.2 0 8' where a card's name was expected"));
   EXPECT_THAT(refusal("MAT1,1,2.+11,,.3\n"), HasSubstr("defines no GRID"));
 }
+
+TEST(NastranText, AByteOrderMarkIsNoPartOfTheText) {
+  EXPECT_EQ(read_deck("\xEF\xBB\xBFGRID,1,,2.\nGRID\t2\n").mesh.points.size(), 2U);
+  EXPECT_EQ(read_deck("\xEF\xBB\xBFGRID,1,,2.\n").mesh.points.at(0).x(), 2.0);
+}
