@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 #include "fem/checks/cells.hpp"
+#include "fem/singular_directions.hpp"
 
 namespace tenon::fem {
 namespace {
@@ -129,54 +129,12 @@ void check_grounding(const Structure& s, const CheckLimits& limits, std::vector<
       limits.listed);
 }
 
-/// "rz" where the direction is an axis, else its components.
-std::string direction_name(const Vec3& v, bool rotation) {
-  Eigen::Index axis = 0;
-  v.cwiseAbs().maxCoeff(&axis);
-  if (std::abs(v(axis)) > 1.0 - 1e-6) return fmt::format("{}{}", rotation ? 'r' : 'u', "xyz"[axis]);
-  return fmt::format("{} along ({:.3g}, {:.3g}, {:.3g})", rotation ? "rotation" : "translation", v(0), v(1), v(2));
-}
-
-/// A node's own 3×3 blocks of K: a direction without stiffness moves that node alone at no cost.
 void check_singular(const Structure& s, const CheckLimits& limits, std::vector<Finding>& findings) {
   Places places;
   double least = 1.0;
-  const auto look = [&](int node, bool rotation, const std::array<int, 3>& rows) {
-    Mat3 block = Mat3::Zero();
-    double trace = 0.0;
-    for (int a = 0; a < 3; ++a)
-      for (int b = 0; b <= a; ++b)
-        if (rows[static_cast<std::size_t>(a)] >= 0 && rows[static_cast<std::size_t>(b)] >= 0)
-          block(a, b) = block(b, a) =
-              s.K.coeff(std::max(rows[static_cast<std::size_t>(a)], rows[static_cast<std::size_t>(b)]),
-                        std::min(rows[static_cast<std::size_t>(a)], rows[static_cast<std::size_t>(b)]));
-    trace = block.trace();
-    for (int a = 0; a < 3; ++a)  // directions that are no rows of K are not looked at
-      if (rows[static_cast<std::size_t>(a)] < 0) block(a, a) = trace > 0.0 ? trace : 1.0;
-    const Eigen::SelfAdjointEigenSolver<Mat3> eigen(block);
-    const double largest = trace > 0.0 ? trace : 1.0;
-    for (int k = 0; k < 3; ++k) {
-      const double ratio = eigen.eigenvalues()(k) / largest;
-      if (ratio >= limits.singular) continue;
-      least = std::min(least, ratio);
-      const auto id = s.node_ids[static_cast<std::size_t>(node)];
-      std::string where = fmt::format("node {} {}", id, direction_name(eigen.eigenvectors().col(k), rotation));
-      for (const Port& port : s.ports)
-        if (port.node == node && id < 0)
-          where = fmt::format("port {} {}", port.name, direction_name(eigen.eigenvectors().col(k), rotation));
-      places.add(-ratio, std::move(where));
-    }
-  };
-  std::array<std::array<int, 3>, 2> rows{};
-  for (int i = 0; i < s.n();) {
-    const int node = s.dofs.free[static_cast<std::size_t>(i)].node;
-    for (auto& block : rows) block.fill(-1);
-    for (; i < s.n() && s.dofs.free[static_cast<std::size_t>(i)].node == node; ++i) {
-      const int d = s.dofs.free[static_cast<std::size_t>(i)].direction;
-      rows[static_cast<std::size_t>(d / 3)][static_cast<std::size_t>(d % 3)] = i;
-    }
-    for (std::size_t b = 0; b < 2; ++b)
-      if (*std::max_element(rows[b].begin(), rows[b].end()) >= 0) look(node, b == 1, rows[b]);
+  for (const SingularDirection& direction : singular_directions(s, limits.singular)) {
+    least = std::min(least, direction.ratio);
+    places.add(-direction.ratio, name(s, direction));
   }
   places.report(findings,
                 {.severity = Severity::warning,

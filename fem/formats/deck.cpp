@@ -18,7 +18,7 @@ Deck read_deck(const std::filesystem::path& file, bool allow_losses) {
     return {std::move(deck.mesh), std::move(deck.model)};
   }
   NastranDeck deck = read_nastran(file, {.allow_losses = allow_losses, .spc_set = {}, .mpc_set = {}});
-  return {std::move(deck.mesh), std::move(deck.model), deck.mass_factor};
+  return {std::move(deck.mesh), std::move(deck.model), deck.mass_factor, deck.auto_spc};
 }
 
 }  // namespace tenon::fem

@@ -11,6 +11,7 @@ struct Deck {
   Mesh mesh;
   Model model;               ///< its first nodes are those of the mesh
   double mass_factor = 1.0;  ///< Nastran's PARAM,WTMASS, already applied
+  bool auto_spc = false;     ///< its own program holds what has no stiffness (NastranDeck)
 };
 
 /// Nastran bulk data by its extension (.bdf, .dat, .nas, .blk); an .inp file that gives its elements sections. An .inp

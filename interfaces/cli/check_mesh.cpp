@@ -14,7 +14,7 @@ int check_mesh(const CheckOptions& options, bool deck) {
   std::size_t nodes = 0;
   std::vector<fem::Finding> found;
   if (deck) {
-    const fem::Model model = deck_model(options.input, options.allow);
+    const fem::Model model = read_deck(options.input, options.allow).model;
     losses = loss_lines(model.losses);
     nodes = model.nodes.size();
     mass = fem::geometric_mass_properties(model);

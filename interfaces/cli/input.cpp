@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "fem/error.hpp"
-#include "fem/formats/deck.hpp"
 
 namespace tenon::cli {
 
@@ -27,7 +26,7 @@ InputKind kind_of(const std::filesystem::path& file) {
   return fem::is_deck(file) ? InputKind::deck : InputKind::mesh;
 }
 
-fem::Model deck_model(const std::filesystem::path& file, const std::vector<std::string>& allow, fem::Mesh* mesh) {
+fem::Deck read_deck(const std::filesystem::path& file, const std::vector<std::string>& allow) {
   fem::Deck deck = fem::read_deck(file, !allow.empty());
   for (const fem::Loss& loss : deck.model.losses)
     if (loss.changes_physics && std::find(allow.begin(), allow.end(), loss.name) == allow.end())
@@ -35,8 +34,7 @@ fem::Model deck_model(const std::filesystem::path& file, const std::vector<std::
           {file.string()},
           fmt::format("{} would be read past, and it carries stiffness or mass ({})", loss.name, loss.note),
           fmt::format("Take it out of the file, or accept the loss with --allow {}", loss.name));
-  if (mesh) *mesh = std::move(deck.mesh);
-  return std::move(deck.model);
+  return deck;
 }
 
 std::vector<std::string> loss_lines(const std::vector<fem::Loss>& losses) {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "assembly/scene.hpp"
-#include "fem/model.hpp"
+#include "fem/formats/deck.hpp"
 
 /// What the word after a command names.
 namespace tenon::cli {
@@ -16,9 +16,8 @@ enum class InputKind { scene, deck, mesh };
 /// readers. Throws InputError when there is no such file, with near misses of its folder.
 InputKind kind_of(const std::filesystem::path& file);
 
-/// A deck's model in its own units; losses that would change the physics must stand in `allow`.
-fem::Model deck_model(const std::filesystem::path& file, const std::vector<std::string>& allow,
-                      fem::Mesh* mesh = nullptr);
+/// A deck in its own units; losses that would change the physics must stand in `allow`.
+fem::Deck read_deck(const std::filesystem::path& file, const std::vector<std::string>& allow);
 
 /// Losses as lines for people.
 std::vector<std::string> loss_lines(const std::vector<fem::Loss>& losses);

@@ -1,9 +1,13 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "fem/error.hpp"
+#include "fem/model_check.hpp"
+#include "fem/singular_directions.hpp"
 #include "interfaces/cli/commands.hpp"
 #include "interfaces/cli/input.hpp"
 #include "interfaces/cli/modes.hpp"
@@ -13,7 +17,13 @@
 namespace tenon::cli {
 namespace {
 
-Json modes_json(const ModesOptions& options, const fem::Structure& structure, const reduction::Modes& modes) {
+/// What changes the answer beside the elements: directions held because they have no stiffness, what was read past.
+struct Remarks {
+  std::vector<std::string> held, read_past;
+};
+
+Json modes_json(const ModesOptions& options, const fem::Structure& structure, const reduction::Modes& modes,
+                const Remarks& remarks) {
   Json object{
       {"source", options.file.string()}, {"model", "full"}, {"dofs", structure.n()}, {"rigid_modes", modes.rigid}};
   object["frequencies_hz"] = Json::array();
@@ -23,10 +33,13 @@ Json modes_json(const ModesOptions& options, const fem::Structure& structure, co
   object["max_orthogonality"] = modes.max_orthogonality;
   object["counted"] = modes.counted;
   object["counted_below_hz"] = hertz(omega_of(modes.count_shift));
+  object["held_without_stiffness"] = remarks.held;
+  object["read_past"] = remarks.read_past;
   return object;
 }
 
-void print_modes(const ModesOptions& options, const fem::Structure& structure, const reduction::Modes& modes) {
+void print_modes(const ModesOptions& options, const fem::Structure& structure, const reduction::Modes& modes,
+                 const Remarks& remarks) {
   print(fmt::format("{}: {} degrees of freedom, unreduced", options.file.string(), structure.n()));
   Table table({"mode", "frequency [Hz]"});
   for (Eigen::Index k = 0; k < modes.lambda.size(); ++k)
@@ -37,6 +50,16 @@ void print_modes(const ModesOptions& options, const fem::Structure& structure, c
                     modes.counted < 0 ? "not certified"
                                       : fmt::format("inertia count below {:.6g} Hz: {}",
                                                     hertz(omega_of(modes.count_shift)), modes.counted)));
+  if (!remarks.held.empty()) {
+    constexpr std::size_t listed = 5;
+    const std::size_t n = std::min(listed, remarks.held.size());
+    print(wrapped(fmt::format("held, as Nastran's AUTOSPC holds what has no stiffness: {}{}",
+                              fmt::join(std::span(remarks.held).first(n), ", "),
+                              remarks.held.size() > n ? fmt::format(" and {} more", remarks.held.size() - n) : ""),
+                  2));
+  }
+  if (!remarks.read_past.empty()) print("  Read past:");
+  for (const std::string& line : remarks.read_past) print(wrapped(line, 4));
 }
 
 void write_pictures(const ModesOptions& options, const fem::Model& model, const fem::Structure& structure,
@@ -47,10 +70,29 @@ void write_pictures(const ModesOptions& options, const fem::Model& model, const 
   fem::write_vtu(options.vtu, pictures.mesh, pictures.modes);
 }
 
+int solve_and_show(const ModesOptions& options, fem::Model model, const fem::Mesh& mesh, bool auto_spc) {
+  for (const std::string& set : options.clamp)
+    for (const int node : fem::points_of_set(mesh, set))
+      for (int k = 0; k < 6; ++k) model.supports.push_back({{node, k}});
+  Remarks remarks{.held = {}, .read_past = loss_lines(model.losses)};
+  if (auto_spc) remarks.held = fem::hold_singular_directions(model, fem::assemble(model), fem::CheckLimits().singular);
+  const fem::Structure structure = fem::assemble(model);
+  reduction::Modes modes;
+  {
+    ProgressBar bar;
+    modes = solve(structure, options, options.count, bar.callback());
+  }
+  write_pictures(options, model, structure, modes);
+  if (options.json)
+    print(modes_json(options, structure, modes, remarks));
+  else
+    print_modes(options, structure, modes, remarks);
+  return done;
+}
+
 int run_deck(const ModesOptions& options) {
-  fem::Mesh mesh;
-  fem::Model model = deck_model(options.file, options.allow, &mesh);
-  const int status = modes_of_model(options, std::move(model), mesh);
+  fem::Deck deck = read_deck(options.file, options.allow);
+  const int status = solve_and_show(options, std::move(deck.model), deck.mesh, deck.auto_spc);
   if (!options.json)
     print("  A deck names no units: these frequencies are per its own unit of time, taken as seconds.");
   return status;
@@ -82,22 +124,8 @@ reduction::Modes solve(const fem::Structure& structure, const ModesOptions& opti
   return reduction::solve_modes(structure, solver);
 }
 
-int modes_of_model(const ModesOptions& options, fem::Model model, const fem::Mesh& mesh) {
-  for (const std::string& set : options.clamp)
-    for (const int node : fem::points_of_set(mesh, set))
-      for (int k = 0; k < 6; ++k) model.supports.push_back({{node, k}});
-  const fem::Structure structure = fem::assemble(model);
-  reduction::Modes modes;
-  {
-    ProgressBar bar;
-    modes = solve(structure, options, options.count, bar.callback());
-  }
-  write_pictures(options, model, structure, modes);
-  if (options.json)
-    print(modes_json(options, structure, modes));
-  else
-    print_modes(options, structure, modes);
-  return done;
+int modes_of_model(const ModesOptions& options, fem::Model model) {
+  return solve_and_show(options, std::move(model), {}, false);
 }
 
 }  // namespace tenon::cli

@@ -18,8 +18,8 @@ inline double omega_of(double lambda) { return std::sqrt(std::max(lambda, 0.0));
 reduction::Modes solve(const fem::Structure& structure, const ModesOptions& command, int count,
                        const reduction::Progress& progress);
 
-/// A structural model as it is: a deck, or an FE body alone. `mesh` holds the sets for --clamp.
-int modes_of_model(const ModesOptions& command, fem::Model model, const fem::Mesh& mesh);
+/// An FE body alone, as it is.
+int modes_of_model(const ModesOptions& command, fem::Model model);
 
 /// Reduced modes of a scene, beside those of its unreduced assembly with --full.
 int modes_of_scene(const ModesOptions& command);

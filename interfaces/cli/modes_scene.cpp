@@ -108,7 +108,7 @@ int modes_of_scene(const ModesOptions& command) {
     throw InputError({command.file.string()}, "--clamp is for decks", "Write `ground: [body.port]` into the scene");
   const assembly::SceneBody& first = scene.bodies.front();
   if (scene.bodies.size() == 1 && first.has_model() && (first.ports.empty() || is_held(first)))
-    return modes_of_model(command, assembly::build_model(first), {});
+    return modes_of_model(command, assembly::build_model(first));
 
   std::optional<ProgressBar> bar(std::in_place);
   const assembly::Network network = assembly::build_network(scene, assembly::plan(scene), bar->callback());

@@ -54,6 +54,33 @@ double cantilever_hz(double root, double depth, double length) {
   return root * root * std::sqrt(200e9 * depth * depth / 12.0 / 8000.0) / (2.0 * std::numbers::pi * length * length);
 }
 
+// A mass m on a spring, .1 m off it with J about itself: held as AUTOSPC does, √(k/m); free to turn, √(k (J + m e²)/m
+// J). A mass on a rod that leans: only along the rod there is stiffness, √(EA/Lm).
+TEST_F(Cli, DecksHoldWhatHasNoStiffness) {
+  const std::string mass = "GRID,1\nCELAS2,1,1000.,1,1\nCONM2,2,1,,2.,0.,.1,0.\n,.01,,.01,,,.01\n",
+                    deck = folder_.write("spring.bdf", mass).string(),
+                    no = folder_.write("free.bdf", "PARAM,AUTOSPC,NO\n" + mass).string(),
+                    rod = folder_
+                              .write("rod.bdf",
+                                     "GRID,1,,,,,,123456\nGRID,2,,3.,4.,0.\nMAT1,1,2.+11,,.3\nCONROD,1,1,2,1,1.-4\n"
+                                     "CONM2,2,2,,8.\n")
+                              .string();
+  const double turns = 2.0 * std::numbers::pi;
+  const json held = object("modes " + deck), free = object("modes " + no), along = object("modes " + rod);
+  ASSERT_EQ(held["frequencies_hz"].size(), 1U);
+  EXPECT_NEAR(held["frequencies_hz"][0], std::sqrt(1000.0 / 2.0) / turns, 1e-12);
+  EXPECT_EQ(held["held_without_stiffness"],
+            json::array({"node 1 uy", "node 1 uz", "node 1 rx", "node 1 ry", "node 1 rz"}));
+  EXPECT_EQ(free["rigid_modes"], 5);
+  EXPECT_NEAR(free["frequencies_hz"][5], std::sqrt(1000.0 * (0.01 + 2.0 * 0.01) / (2.0 * 0.01)) / turns, 1e-11);
+  EXPECT_EQ(free["held_without_stiffness"], json::array());
+  ASSERT_EQ(free["read_past"].size(), 1U);
+  EXPECT_THAT(free["read_past"][0].get<std::string>(), HasSubstr("PARAM AUTOSPC"));
+  ASSERT_EQ(along["frequencies_hz"].size(), 1U);
+  EXPECT_NEAR(along["frequencies_hz"][0], std::sqrt(2e11 * 1e-4 / 5.0 / 8.0) / turns, 1e-10);
+  EXPECT_THAT(tenon("modes " + deck).out, HasSubstr("held, as Nastran's AUTOSPC holds"));
+}
+
 TEST_F(Cli, InfoPrintsWhatTheMeshHolds) {
   const json info = object("info " + (folder_.path() / "beam_16.msh").string());
   EXPECT_EQ(info["points"], 17);
