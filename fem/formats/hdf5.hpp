@@ -31,7 +31,7 @@ class File {
   vtk::Values values(const std::string& dataset, std::uint64_t most) const;
 
   /// A dataset of texts of one length each, strings or arrays of characters, without the blanks and zeros at their
-  /// ends.
+  /// ends. Throws too where they would take more than 1100 times what is stored of them, or more than `most` bytes.
   std::vector<std::string> texts(const std::string& dataset, std::uint64_t most) const;
 
   /// A whole number or a text that an object has as attribute; none where it lacks it or that is of another kind.

@@ -86,8 +86,8 @@ void expect_mode(const reduction::Modes& modes, double hertz, int n, double tole
 
 }  // namespace
 
-// R = .1, L = .4, t = .002 between diaphragms, one half wave along, n = 2 to 5 around, each twice. 64 cells around:
-// 13 a wave at n = 5.
+// R = .1, L = .4, t = .002 between diaphragms, one half wave along, n = 2 to 5 around, each twice: thin-shell theory
+// (Flügge's equations give .1 to .3 % more). 64 cells around: 13 a wave at n = 5.
 TEST_F(ShellRows, SimplySupportedCylinder) {
   constexpr int around = 64, along = 32;
   grid(
@@ -139,12 +139,14 @@ TEST_F(ShellRows, PinchedCylinder) {
     const double u = -deflection(s, {0, 2}, {{{0, 2}, -0.25}});
     EXPECT_NEAR(u / fem::testing::pinched_cylinder({mesh}), 1.0, 1e-7);
     EXPECT_LE(std::abs(u / 1.8248e-5 - 1.0), std::abs(quoted - 1.0) + 0.002);
+    EXPECT_NEAR(u / 1.8248e-5, 1.0, 0.015) << "the element's own error, about a per cent";
   }
 }
 
-// Under its weight, 90 per area: what M of the free roof says a unit acceleration takes.
+// Under its weight, 90 per area: what M of the free roof says a unit acceleration takes. Reference:
+// test_shell_obstacles.
 TEST_F(ShellRows, ScordelisLoRoof) {
-  for (const auto& [mesh, quoted] : {std::pair{Grid::regular, 0.9973 * 0.3024 / 0.3006}, {Grid::distorted, 0.9942}}) {
+  for (const auto& [mesh, quoted] : {std::pair{Grid::regular, 0.9973}, {Grid::distorted, 0.9942}}) {
     grid({mesh}, [](double u, double v) {
       const double angle = 40.0 / 360.0 * tau * u;
       return Vec3(25 * std::sin(angle), 25 * v, 25 * std::cos(angle));
