@@ -117,22 +117,18 @@ const char* harmless_note(const std::string& keyword) {
   return found == harmless.end() ? nullptr : found->note;
 }
 
-/// One part placed once without being moved is the same as a flat deck.
-void refuse_instances(const Draft& draft) {
-  const Block* first = nullptr;
-  for (const Block& block : draft.text.blocks) {
-    if (block.keyword != "INSTANCE") continue;
-    if (first || !block.data.empty())
-      block.refuse("parts that are moved or used more than once are not read",
-                   "Write the deck flat (in Abaqus/CAE: model attributes, no parts and assemblies in input files)");
-    first = &block;
-  }
+/// Without what they make the deck is another one.
+void refuse_generators(const Draft& draft) {
+  static const std::set<std::string> generators{"NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "PARAMETER"};
+  for (const Block& block : draft.text.blocks)
+    if (generators.contains(block.keyword))
+      block.refuse(fmt::format("*{} makes parts of the deck by rule, which is not read", block.keyword),
+                   "Write the nodes and elements out, as pre-processors do");
 }
 
 }  // namespace
 
 void classify_rest(Draft& draft) {
-  refuse_instances(draft);
   for (const Block& block : draft.text.blocks) {
     if (understood.contains(block.keyword) || block.keyword == "INSTANCE") continue;
     const std::string name = "*" + block.keyword;
@@ -164,6 +160,8 @@ AbaqusDeck read_abaqus(const std::filesystem::path& path, const AbaqusOptions& o
     if (DataLines line(block); block.keyword == "HEADING" && line.next() && deck.title.empty())
       deck.title = std::string(line.at(0));
 
+  refuse_generators(draft);
+  place_parts(draft);
   read_nodes(draft);
   if (deck.mesh.points.empty())
     throw InputError({path.string(), 0, 0}, "the deck defines no node (*NODE)",

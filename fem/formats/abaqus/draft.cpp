@@ -60,7 +60,7 @@ void LossReport::refuse_physical() const {
 
 int Draft::node(const DataLines& line, std::size_t field, const char* what) const {
   const long id = line.integer(field, what);
-  const auto found = node_of.find(id);
+  const auto found = node_of.find(number(line.block(), id));
   if (found == node_of.end())
     line.refuse(field, fmt::format("node {} is not defined", id), "Add it to a *NODE block or correct the number");
   return found->second;
@@ -69,15 +69,41 @@ int Draft::node(const DataLines& line, std::size_t field, const char* what) cons
 std::vector<int> Draft::nodes(const DataLines& line, std::size_t field, const char* what) const {
   if (parse_integer(line.at(field))) return {node(line, field, what)};
   if (line.at(field).empty()) line.fail(field, what);
-  return node_set(std::string(line.at(field)), line.place(field));
+  const std::string name(line.at(field));
+  const std::size_t dot = name.rfind('.');  // "arm-1.7"
+  if (const auto id = dot == name.npos ? std::nullopt : parse_integer(std::string_view(name).substr(dot + 1)))
+    for (const Instance& instance : instances)
+      if (upper(instance.name) == upper(name.substr(0, dot)))
+        if (const auto found = node_of.find(instance.first_number + *id); found != node_of.end())
+          return {found->second};
+  return node_set(name, line.block(), line.place(field));
 }
 
-const std::vector<int>& Draft::node_set(const std::string& name, const Place& place) const {
-  return find_set(node_sets, "node", name, place);
+const std::vector<int>& Draft::node_set(const std::string& name, const Block& user, const Place& place) const {
+  return find_set(node_sets, "node", full_name(name, user), place);
 }
 
-const std::vector<int>& Draft::element_set(const std::string& name, const Place& place) const {
-  return find_set(element_sets, "element", name, place);
+const std::vector<int>& Draft::element_set(const std::string& name, const Block& user, const Place& place) const {
+  return find_set(element_sets, "element", full_name(name, user), place);
+}
+
+const Instance& Draft::scope(const Block& block) const {
+  return block.scope < 0 ? model : instances[static_cast<std::size_t>(block.scope)];
+}
+
+std::string Draft::full_name(const std::string& name, const Block& block) const {
+  return block.scope < 0 ? name : fmt::format("{}.{}", scope(block).name, name);
+}
+
+int Draft::instance(const Block& block) const {
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < instances.size(); ++k) {
+    if (upper(instances[k].name) == block.upper_value("INSTANCE")) return static_cast<int>(k);
+    names.push_back(instances[k].name);
+  }
+  const std::string near = near_miss(block.value("INSTANCE"), names);
+  block.refuse(fmt::format("there is no instance '{}'", block.value("INSTANCE")),
+               near.empty() ? "Define it by *INSTANCE" : fmt::format("Did you mean '{}'?", near));
 }
 
 const DraftMaterial& Draft::material(const Block& section, const std::string& name) {

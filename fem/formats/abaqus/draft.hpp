@@ -66,8 +66,18 @@ struct DraftMaterial {
   bool varies = false;             ///< with temperature: the first line of its numbers is taken
 };
 
+/// A part placed in the assembly, or the model around them.
+struct Instance {
+  std::string name;
+  Vec3 shift = Vec3::Zero();
+  Mat3 rotation = Mat3::Identity();  ///< a point x of the part lies at rotation x + shift
+  long first_number = 0;             ///< what its numbers of nodes and elements are counted from
+};
+
 struct Draft {
   Text text;
+  std::vector<Instance> instances;
+  Instance model;
   AbaqusDeck deck;
   LossReport losses;
 
@@ -84,8 +94,19 @@ struct Draft {
   int node(const DataLines& line, std::size_t field, const char* what) const;
   /// Nodes of a number or a node set; throws InputError with near misses.
   std::vector<int> nodes(const DataLines& line, std::size_t field, const char* what) const;
-  const std::vector<int>& node_set(const std::string& name, const Place& place) const;
-  const std::vector<int>& element_set(const std::string& name, const Place& place) const;
+  /// By the name that `user` gives it: within an instance that of the part's.
+  const std::vector<int>& node_set(const std::string& name, const Block& user, const Place& place) const;
+  const std::vector<int>& element_set(const std::string& name, const Block& user, const Place& place) const;
+  const Instance& scope(const Block& block) const;
+  /// A point of the block's part as one of the assembly.
+  Vec3 place(const Block& block, const Vec3& x) const { return scope(block).rotation * x + scope(block).shift; }
+  /// A node's or element's number within the block's part as one of the deck.
+  long number(const Block& block, long given) const { return scope(block).first_number + given; }
+  /// "arm-1.root" for a name within an instance, else the name itself; `key`: the same in upper case.
+  std::string full_name(const std::string& name, const Block& block) const;
+  std::string key(const std::string& name, const Block& block) const { return upper(full_name(name, block)); }
+  /// Index of the instance that its INSTANCE= names; throws InputError with near misses.
+  int instance(const Block& block) const;
   /// Nodes of an element of the deck.
   std::vector<int> nodes_of(int element) const;
   /// The *MATERIAL that a section names; throws InputError with near misses.
@@ -104,6 +125,7 @@ std::optional<Mat3> orientation(const Draft& draft, const Block& user, const std
 long orientation_axis(const Draft& draft, const Block& user, const std::string& name);
 
 // The steps, in the order of their calls.
+void place_parts(Draft& draft);      ///< *PART, *INSTANCE: blocks of parts, once for each of their instances
 void read_nodes(Draft& draft);       ///< *NODE
 void read_elements(Draft& draft);    ///< *ELEMENT
 void read_sets(Draft& draft);        ///< *NSET, *ELSET; then the mesh's sets

@@ -32,12 +32,12 @@ struct LinkReader {
 int LinkReader::reference(const Block& block, const char* parameter) const {
   const std::string text = block.value(parameter);
   if (const auto id = parse_integer(text)) {
-    const auto found = draft.node_of.find(*id);
+    const auto found = draft.node_of.find(draft.number(block, *id));
     if (found != draft.node_of.end()) return found->second;
     block.refuse(fmt::format("*{}: node {} is not defined", block.keyword, *id), "Add it to a *NODE block");
   }
   if (text.empty()) block.refuse(fmt::format("*{} has no {}", block.keyword, parameter), "Name its reference node");
-  const std::vector<int>& set = draft.node_set(text, block.place);
+  const std::vector<int>& set = draft.node_set(text, block, block.place);
   if (set.size() != 1)
     block.refuse(fmt::format("node set '{}' has {} nodes, expected one reference node", text, set.size()),
                  "Name a single node");
@@ -62,13 +62,13 @@ void LinkReader::rigid_body(const Block& block) {
   std::vector<int> nodes;
   for (const char* parameter : {"NSET", "TIE NSET"})
     if (block.has(parameter))
-      for (const int node : draft.node_set(block.value(parameter), block.place)) nodes.push_back(node);
+      for (const int node : draft.node_set(block.value(parameter), block, block.place)) nodes.push_back(node);
   if (block.has("ELSET"))
-    for (const int e : draft.element_set(block.value("ELSET"), block.place))
+    for (const int e : draft.element_set(block.value("ELSET"), block, block.place))
       for (const int node : draft.nodes_of(e)) nodes.push_back(node);
   if (block.has("ANALYTICAL SURFACE")) draft.losses.add("*RIGID BODY", "ANALYTICAL SURFACE: a surface for contact");
   std::vector<int> pinned;
-  if (block.has("PIN NSET")) pinned = draft.node_set(block.value("PIN NSET"), block.place);
+  if (block.has("PIN NSET")) pinned = draft.node_set(block.value("PIN NSET"), block, block.place);
   const auto others = [&](const std::vector<int>& set) { return std::ssize(set) - std::ranges::count(set, ref); };
   if (others(nodes) + others(pinned) == 0)
     block.refuse("*RIGID BODY has no nodes besides its reference", "Name them by NSET, ELSET, TIE NSET or PIN NSET");
@@ -81,8 +81,9 @@ void LinkReader::rigid_body(const Block& block) {
 /// Nodes of *SURFACE: lists of nodes, or sides of shells.
 std::vector<int> LinkReader::surface(const Block& asker, const std::string& name) {
   const Block* found = nullptr;
+  const std::string key = draft.key(name, asker);
   for (const Block& block : draft.text.blocks) {
-    if (block.keyword != "SURFACE" || upper(block.value("NAME")) != upper(name)) continue;
+    if (block.keyword != "SURFACE" || draft.key(block.value("NAME"), block) != key) continue;
     if (found)
       block.refuse(fmt::format("surface '{}' stands already at {}", block.value("NAME"), to_string(found->place)),
                    "Give it a name of its own or remove one of the two");
@@ -103,12 +104,12 @@ std::vector<int> LinkReader::surface(const Block& asker, const std::string& name
                   "Give the surface as a list of nodes (*SURFACE, TYPE=NODE)");
     std::vector<int> elements;
     if (const auto id = parse_integer(line.at(0))) {
-      const auto element = draft.element_of.find(*id);
+      const auto element = draft.element_of.find(draft.number(*found, *id));
       if (element == draft.element_of.end())
         line.refuse(0, fmt::format("element {} is not defined", *id), "Correct the number");
       elements.push_back(element->second);
     } else {
-      elements = draft.element_set(std::string(line.at(0)), line.place(0));
+      elements = draft.element_set(std::string(line.at(0)), *found, line.place(0));
     }
     for (const int e : elements)
       for (const int node : draft.nodes_of(e)) nodes.push_back(node);
@@ -247,11 +248,13 @@ void read_transforms(Draft& draft) {
     if (!line.next()) block.refuse("*TRANSFORM has no data line", "Give its two points");
     const Vec3 a(line.real(0, "a"), line.real(1, "a"), line.real(2, "a"));
     const Vec3 b(line.real(3, "b"), line.real(4, "b"), line.real(5, "b"));
-    for (const int node : draft.node_set(set, block.place)) {
+    const Vec3 origin = draft.scope(block).shift;
+    for (const int node : draft.node_set(set, block, block.place)) {
       Mat3 axes;
       if (type == "C") {  // a, b on the axis: radial, around, along
         if (a == b) line.refuse(0, "the two points on the axis of *TRANSFORM are one", "Correct them");
-        const Vec3 axial = (b - a).normalized(), arm = draft.deck.model.nodes[static_cast<std::size_t>(node)] - a;
+        const Vec3 axial = (b - a).normalized(),
+                   arm = draft.deck.model.nodes[static_cast<std::size_t>(node)] - origin - a;
         const Vec3 radial = arm - axial.dot(arm) * axial;
         if (!(radial.norm() > 1e-12 * (1.0 + arm.norm())))
           line.refuse(0, "a node lies on the axis of *TRANSFORM", "Leave it out");
@@ -287,7 +290,54 @@ void read_links(Draft& draft) {
   }
 }
 
-// node or set, first dof, last dof, value. Supports of all steps hold; a value that is not zero is a load.
+namespace {
+
+/// The *BOUNDARY blocks in force in the first *FREQUENCY step, in the last step where there is none: those of the model
+/// and of the steps up to it. OP=NEW takes away all before its step, in both programs.
+std::vector<const Block*> supports_in_force(Draft& draft) {
+  const std::vector<Block>& blocks = draft.text.blocks;
+  const auto frequency = std::ranges::find(blocks, "FREQUENCY", &Block::keyword);
+  const auto end = std::find_if(frequency, blocks.end(), [](const Block& b) { return b.keyword == "END STEP"; });
+  std::vector<const Block*> in_force;
+  bool renewed = false;  // in this step
+  for (auto block = blocks.begin(); block != blocks.end(); ++block) {
+    if (block->keyword == "STEP") renewed = false;
+    if (block->keyword != "BOUNDARY") continue;
+    if (block >= end) {
+      draft.losses.add("*BOUNDARY of later steps", "modes are those of the first *FREQUENCY step");
+      continue;
+    }
+    if (block->upper_value("OP") == "NEW" && !renewed) {
+      in_force.clear();
+      renewed = true;
+    }
+    in_force.push_back(&*block);
+  }
+  return in_force;
+}
+
+/// Frequencies about a loaded state have its stress in K: CalculiX's *STEP, PERTURBATION behind a *STATIC step,
+/// Abaqus's steps behind one with NLGEOM.
+void refuse_prestress(Draft& draft) {
+  bool loaded = false, nonlinear = false;
+  const Block* step = nullptr;
+  for (const Block& block : draft.text.blocks) {
+    if (block.keyword == "STEP") {
+      step = &block;
+      nonlinear = nonlinear || (block.has("NLGEOM") && block.upper_value("NLGEOM") != "NO");
+    }
+    if (block.keyword == "STATIC" && step && !step->has("PERTURBATION")) loaded = true;
+    if (block.keyword != "FREQUENCY" || !step) continue;
+    if (loaded && (nonlinear || step->has("PERTURBATION")))
+      draft.losses.add_physical("*STATIC before *FREQUENCY", "the stress that it leaves stiffens the structure",
+                                step->place);
+    return;
+  }
+}
+
+}  // namespace
+
+// node or set, first dof, last dof, value; one that is not zero is a load.
 void read_supports(Draft& draft) {
   Model& model = draft.deck.model;
   const auto hold = [&](int node, Directions bits) {
@@ -303,9 +353,9 @@ void read_supports(Draft& draft) {
         model.constraints.push_back(std::move(constraint));
     }
   };
-  for (const Block& block : draft.text.blocks) {
-    if (block.keyword != "BOUNDARY") continue;
-    DataLines line(block);
+  refuse_prestress(draft);
+  for (const Block* const block : supports_in_force(draft)) {
+    DataLines line(*block);
     while (line.next()) {
       const std::vector<int> nodes = draft.nodes(line, 0, "a node or a node set");
       Directions bits = 0;

@@ -71,12 +71,14 @@ bool letters(std::string_view rest) {
 }
 
 /// Adds them to the set that the block names by `parameter`.
-void add_to_set(auto& sets, const Block& block, const char* parameter, const std::vector<int>& members) {
+void add_to_set(const Draft& draft, auto& sets, const Block& block, const char* parameter,
+                const std::vector<int>& members) {
   const std::string name = block.value(parameter);
   if (name.empty())
     block.refuse(fmt::format("*{} gives {} without a name", block.keyword, parameter),
                  fmt::format("Write {}=name, or leave it out", parameter));
-  auto& set = sets.try_emplace(upper(name), name, std::vector<int>{}).first->second.second;
+  auto& set =
+      sets.try_emplace(draft.key(name, block), draft.full_name(name, block), std::vector<int>{}).first->second.second;
   set.insert(set.end(), members.begin(), members.end());
 }
 
@@ -106,10 +108,11 @@ void read_nodes(Draft& draft) {
     std::vector<int> members;
     DataLines line(block);
     while (line.next()) {
-      const long id = line.integer(0, "the node's number");
-      if (id <= 0) line.fail(0, "a node number above zero");
+      const long given = line.integer(0, "the node's number");
+      if (given <= 0) line.fail(0, "a node number above zero");
+      const long id = draft.number(block, given);
       const auto [entry, added] = draft.node_of.try_emplace(id, static_cast<int>(mesh.points.size()));
-      const Vec3 at(line.real(1, "x", 0.0), line.real(2, "y", 0.0), line.real(3, "z", 0.0));
+      const Vec3 at = draft.place(block, Vec3(line.real(1, "x", 0.0), line.real(2, "y", 0.0), line.real(3, "z", 0.0)));
       members.push_back(entry->second);
       if (!added) {
         if (mesh.points[static_cast<std::size_t>(entry->second)] != at)
@@ -121,7 +124,7 @@ void read_nodes(Draft& draft) {
       mesh.points.push_back(at);
       mesh.point_ids.push_back(id);
     }
-    if (block.has("NSET")) add_to_set(draft.node_sets, block, "NSET", members);
+    if (block.has("NSET")) add_to_set(draft, draft.node_sets, block, "NSET", members);
   }
   draft.deck.model.nodes = mesh.points;
   draft.deck.model.node_ids = mesh.point_ids;
@@ -143,6 +146,7 @@ void read_elements(Draft& draft) {
     while (line.next()) {
       ListedElement e{.id = line.integer(0, "the element's number"), .type = known->second};
       if (e.id <= 0) line.fail(0, "an element number above zero");
+      e.id = draft.number(block, e.id);
       nodes.clear();
       for (std::size_t field = 1;;) {  // a record runs on until it has its nodes
         for (; field < line.size(); ++field) nodes.push_back(draft.node(line, field, "a node of the element"));
@@ -174,7 +178,7 @@ void read_elements(Draft& draft) {
       members.push_back(static_cast<int>(draft.elements.size()));
       draft.elements.push_back(e);
     }
-    if (block.has("ELSET")) add_to_set(draft.element_sets, block, "ELSET", members);
+    if (block.has("ELSET")) add_to_set(draft, draft.element_sets, block, "ELSET", members);
   }
 }
 
@@ -186,6 +190,9 @@ void read_set(Draft& draft, const Block& block, bool of_nodes) {
   const std::string name = block.value(kind);
   if (name.empty()) block.refuse(fmt::format("*{} has no name", kind), fmt::format("Write *{0}, {0}=name", kind));
   const auto& index = of_nodes ? draft.node_of : draft.element_of;
+  Block within = block;  // members are those of the part that INSTANCE names
+  if (block.has("INSTANCE")) within.scope = draft.instance(block);
+  const long from = draft.number(within, 0);
   std::vector<int> members;
   DataLines line(block);
   while (line.next()) {
@@ -197,17 +204,18 @@ void read_set(Draft& draft, const Block& block, bool of_nodes) {
       // a range may be longer than the mesh: walk over whichever is shorter
       if (const long steps = (last - first) / step; steps < static_cast<long>(index.size())) {
         for (long i = 0; i <= steps; ++i)  // a number past the last one might not exist
-          if (const auto found = index.find(first + i * step); found != index.end()) members.push_back(found->second);
+          if (const auto found = index.find(from + first + i * step); found != index.end())
+            members.push_back(found->second);
       } else {
         for (const auto& [id, place] : index)
-          if (id >= first && id <= last && (id - first) % step == 0) members.push_back(place);
+          if (id >= from + first && id <= from + last && (id - from - first) % step == 0) members.push_back(place);
       }
       continue;
     }
     for (std::size_t i = 0; i < line.size(); ++i) {
       if (line.at(i).empty()) continue;
       if (const auto id = parse_integer(line.at(i))) {
-        const auto found = index.find(*id);
+        const auto found = index.find(from + *id);
         if (found == index.end())
           line.refuse(i,
                       fmt::format("{} set '{}' names {} {}, which is not defined", of_nodes ? "node" : "element", name,
@@ -216,15 +224,16 @@ void read_set(Draft& draft, const Block& block, bool of_nodes) {
         members.push_back(found->second);
       } else {
         const std::string other(line.at(i));
-        const auto& set = of_nodes ? draft.node_set(other, line.place(i)) : draft.element_set(other, line.place(i));
+        const auto& set =
+            of_nodes ? draft.node_set(other, within, line.place(i)) : draft.element_set(other, within, line.place(i));
         members.insert(members.end(), set.begin(), set.end());
       }
     }
   }
   if (of_nodes && block.has("ELSET"))  // the nodes of an element set
-    for (const int e : draft.element_set(block.value("ELSET"), block.place))
+    for (const int e : draft.element_set(block.value("ELSET"), within, block.place))
       for (const int node : draft.nodes_of(e)) members.push_back(node);
-  add_to_set(of_nodes ? draft.node_sets : draft.element_sets, block, kind, members);
+  add_to_set(draft, of_nodes ? draft.node_sets : draft.element_sets, block, kind, members);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace {
 const Block& named(const Draft& draft, const Block& user, const std::string& name) {
   std::vector<std::string> names;
   for (const Block& block : draft.text.blocks) {
-    if (block.keyword != "ORIENTATION") continue;
+    if (block.keyword != "ORIENTATION" || block.scope != user.scope) continue;
     if (upper(block.value("NAME")) == upper(name)) return block;
     names.push_back(block.value("NAME"));
   }
@@ -52,6 +52,7 @@ std::optional<Mat3> orientation(const Draft& draft, const Block& user, const std
     line.refuse(0, "points a and b lie on one line with the origin: they fix no axes", "Correct one of them");
   Mat3 axes;
   axes << a.normalized(), z.normalized().cross(a.normalized()), z.normalized();
+  axes = draft.scope(block).rotation * axes;
   if (!line.next()) return axes;
   const long about = turning_axis(line);
   const double angle = line.real(1, "an angle in degrees", 0.0) * std::numbers::pi / 180.0;

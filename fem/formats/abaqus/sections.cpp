@@ -44,7 +44,7 @@ struct SectionReader {
         if (!known->second.contains(name))
           draft.losses.add_physical(fmt::format("*{}, {}", block.keyword, name),
                                     "this parameter of the section is not read", block.place);
-    for (const int e : draft.element_set(set, block.place)) {
+    for (const int e : draft.element_set(set, block, block.place)) {
       Place& owner = section_of[static_cast<std::size_t>(e)];
       const ListedElement& element = draft.elements[static_cast<std::size_t>(e)];
       if (!owner.file.empty())
@@ -86,6 +86,7 @@ void SectionReader::beams(const Block& block) {
     each(block, [](const ListedElement&) {});
     return;
   }
+  s.n1 = draft.scope(block).rotation * s.n1;
   s.section.name = block.value("ELSET");
   const int material_index = add(s.material ? *s.material : named->material);
   const int section = static_cast<int>(model().beam_sections.size());
@@ -206,7 +207,7 @@ void SectionReader::springs(const Block& block) {
   const auto is_axial = [&](const ListedElement& e) {
     return type_of(e).type.formulation == Formulation::axial_spring;
   };
-  const std::vector<int>& set = draft.element_set(block.value("ELSET"), block.place);
+  const std::vector<int>& set = draft.element_set(block.value("ELSET"), block, block.place);
   const bool axial = !set.empty() && is_axial(draft.elements[static_cast<std::size_t>(set.front())]);
   const SpringBlock read = spring_block(draft, block, axial);
   each(block, [&](const ListedElement& e) {

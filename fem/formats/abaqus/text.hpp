@@ -34,6 +34,7 @@ struct Block {
   std::map<std::string, std::string> parameters;  ///< upper-case name → value as written, "" where it has none
   Place place;
   std::vector<Piece> data;
+  int scope = -1;  ///< of Draft::instances, whose part it belongs to; −1: of the model
 
   bool has(const std::string& name) const { return parameters.contains(name); }
   /// The value, "" where the keyword has no such parameter.
@@ -63,6 +64,7 @@ class DataLines {
   double real(std::size_t i, const char* what, double otherwise) const;
   double positive(std::size_t i, const char* what) const;
 
+  const Block& block() const { return *block_; }
   Place place(std::size_t i = 0) const;
   [[noreturn]] void fail(std::size_t i, const std::string& expected) const;
   [[noreturn]] void refuse(std::size_t i, const std::string& what, const std::string& cure) const;

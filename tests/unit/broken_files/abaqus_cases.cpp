@@ -288,9 +288,21 @@ std::vector<Case> link_cases() {
       lines("unknown keyword", "*FANCY\n", {"*FANCY", "not known here"}, {{16, 0}}),
       lines("keyword with a typing error", "*BUONDARY\n1, 1, 6\n", {"*BUONDARY", "not known here"}, {{16, 0}}),
       lines("parts that are tied", "*TIE, NAME=T\nA, B\n", {"*TIE"}, {{16, 0}}),
-      lines("part placed twice", "*INSTANCE, NAME=A, PART=P\n*END INSTANCE\n*INSTANCE, NAME=B, PART=P\n",
-            {"used more than once"}, {{18, 0}}),
-      lines("part that is moved", "*INSTANCE, NAME=A, PART=P\n1, 0, 0\n*END INSTANCE\n", {"are moved"}, {{16, 0}}),
+      lines("nodes made by rule", "*NGEN\n1, 9, 1\n", {"*NGEN makes parts of the deck by rule"}, {{16, 0}}),
+      lines("part that is not defined", "*INSTANCE, NAME=A, PART=P\n*END INSTANCE\n", {"there is no part 'P'"},
+            {{16, 0}}),
+      lines("part that is not placed", "*PART, NAME=P\n*END PART\n", {"is placed by no *INSTANCE"}, {{16, 0}}),
+      lines("instance named twice",
+            "*PART, NAME=P\n*END PART\n*INSTANCE, NAME=A, PART=P\n*END INSTANCE\n*INSTANCE, NAME=A, PART=P\n",
+            {"instance 'A' is a second one"}, {{20, 0}}),
+      lines("instance about no axis",
+            "*PART, NAME=P\n*END PART\n*INSTANCE, NAME=A, PART=P\n0.,0.,0.\n1.,0.,0.,1.,0.,0.,30.\n*END INSTANCE\n",
+            {"they fix no axis"}, {{20, 1}}),
+      lines("springs that would have to turn",
+            "*PART, NAME=P\n*SPRING, ELSET=E\n1\n1.\n*END PART\n*INSTANCE, NAME=A, "
+            "PART=P\n0.,0.,0.\n0.,0.,0.,1.,0.,0.,30.\n"
+            "*END INSTANCE\n",
+            {"*SPRING in a part of which an instance is turned is not read"}, {{17, 0}}),
       lines("star without a keyword", "*\n", {"a * without a keyword"}, {{16, 0}}),
   };
 }

@@ -430,3 +430,81 @@ TEST_F(Abaqus, ShellsWhoseDirectionsAreNotKnown) {
   refused(material + "LAMINA\n1., 4., .6, 1., 1., 1.\n", "deck.inp:5", "√(E1/E2) = 0.5");
   refused(material + "ENGINEERING CONSTANTS\n1., 4., 4., .6, .1, .1, 1., 1.\n1.\n", "deck.inp:5:13", "√(E1/E2) = 0.5");
 }
+
+namespace {
+
+/// An arm along x of two beams, n1 along y, as a part; what its instances are stands behind.
+std::string arms(const std::string& instances, const std::string& behind = "") {
+  return "*PART, NAME=Arm\n*NODE\n1, 0, 0, 0\n2, .5, 0, 0\n3, 1, 0, 0\n*ELEMENT, TYPE=B31, ELSET=Bars\n1, 1, 2\n2, 2, "
+         "3\n"
+         "*NSET, NSET=Set-1, GENERATE\n1, 3\n*NSET, NSET=Root\n1\n*BEAM SECTION, ELSET=Bars, MATERIAL=M, SECTION=RECT\n"
+         ".02, .01\n0, 1, 0\n*END PART\n*ASSEMBLY, NAME=A\n" +
+         instances +
+         "*NSET, NSET=Set-1, INSTANCE=One\n1\n*ELSET, ELSET=First, INSTANCE=ONE, GENERATE\n1, 1\n*END ASSEMBLY\n"
+         "*MATERIAL, NAME=M\n*ELASTIC\n2E11, .3\n*DENSITY\n7800.\n" +
+         behind;
+}
+
+const std::string one = "*INSTANCE, NAME=One, PART=ARM\n*END INSTANCE\n";
+
+}  // namespace
+
+// A set of the part and one of the assembly may have the same name, as Abaqus/CAE calls them.
+TEST_F(Abaqus, NamesOfPartsAndOfTheAssembly) {
+  const AbaqusDeck deck = read(arms(one,
+                                    "*BOUNDARY\nSet-1, 1, 1\nOne.Root, 2\nOne.3, 3\nFIRST-NONE, 4\n"
+                                    "*NSET, NSET=FIRST-NONE, ELSET=First\n"));
+  EXPECT_EQ(deck.mesh.point_ids, (std::vector<long>{1, 2, 3}));
+  EXPECT_EQ(deck.mesh.point_sets.at("Set-1"), (std::vector{0}));
+  EXPECT_EQ(deck.mesh.point_sets.at("One.Set-1"), (std::vector{0, 1, 2}));
+  EXPECT_EQ(deck.mesh.cell_sets.at("First"), (std::vector<std::vector<int>>{{0}}));
+  std::vector<std::array<int, 2>> held;
+  for (const Support& support : deck.model.supports) held.push_back({support.dof.node, support.dof.direction});
+  EXPECT_EQ(held, (std::vector<std::array<int, 2>>{{0, 0}, {0, 1}, {2, 2}, {0, 3}, {1, 3}}));
+  refused(arms(one, "*BOUNDARY\nOne.Toor, 2\n"), "deck.inp:", "there is no node set 'One.Toor'");
+  refused(arms("*INSTANCE, NAME=Two, PART=Arm\n*END INSTANCE\n"), "deck.inp:", "there is no instance 'One'");
+}
+
+// Two instances, the second moved by y and turned by 90° about z through where its root then is.
+TEST_F(Abaqus, InstancesAreMovedThenTurned) {
+  const AbaqusDeck deck = read(arms(one + "*INSTANCE, NAME=Other, PART=Arm\n0., 2., 0.\n0., 2., 0., 0., 2., 5., 90.\n"
+                                          "*NODE\n9, 3., 0., 0.\n*END INSTANCE\n*NODE\n1, 7., 7., 7.\n"
+                                          "*RIGID BODY, REF NODE=1, TIE NSET=Other.Root\n"));
+  const std::vector<Vec3> expected{{0, 0, 0},   {0.5, 0, 0}, {1, 0, 0}, {0, 2, 0},
+                                   {0, 2.5, 0}, {0, 3, 0},   {0, 5, 0}, {7, 7, 7}};
+  ASSERT_EQ(deck.mesh.points.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_LT((deck.mesh.points[i] - expected[i]).norm(), 1e-15) << i;
+  EXPECT_EQ(deck.mesh.point_ids, (std::vector<long>{1, 2, 3, 11, 12, 13, 19, 21}));
+  ASSERT_EQ(deck.model.elements.size(), 4U);
+  const Beam &first = std::get<Beam>(deck.model.elements[0]), &last = std::get<Beam>(deck.model.elements[3]);
+  EXPECT_EQ(first.orientation, Vec3(0, 1, 0));
+  EXPECT_LT((last.orientation - Vec3(-1, 0, 0)).norm(), 1e-15);
+  EXPECT_EQ(last.id, 12);
+  ASSERT_EQ(deck.model.rigid_links.size(), 1U);
+  EXPECT_EQ(deck.model.rigid_links[0].independent, 7);
+  EXPECT_EQ(deck.model.rigid_links[0].dependents, (std::vector{3}));
+}
+
+// Both programs: OP=NEW takes away what stood before its step; what later steps hold is not there yet.
+TEST_F(Abaqus, SupportsAreThoseOfTheFirstFrequencyStep) {
+  const std::string model = shell_deck("MATERIAL=FOAM\n.003") + "*BOUNDARY\n1, 1, 6\n", step = "*STEP\n*FREQUENCY\n3\n",
+                    end = "*END STEP\n";
+  const auto held = [&](const std::string& steps) { return read(model + steps).model.supports.size(); };
+  EXPECT_EQ(held(step + end), 6U);
+  EXPECT_EQ(held(step + "*BOUNDARY\n2, 1, 2\n" + end), 8U);
+  EXPECT_EQ(held(step + "*BOUNDARY, OP=NEW\n2, 1, 2\n*BOUNDARY, OP=NEW\n2, 3\n" + end), 3U);
+  EXPECT_EQ(held("*STEP\n*STATIC\n*BOUNDARY\n2, 1\n" + end + step + end), 7U);
+  EXPECT_EQ(held(step + end + "*STEP\n*STATIC\n*BOUNDARY, OP=NEW\n2, 1\n" + end), 6U);
+  EXPECT_EQ(held("*STEP\n*STATIC\n*BOUNDARY\n2, 1\n" + end), 7U) << "no frequency: the last step";
+  const std::vector<Loss> losses = read(model + step + end + step + "*BOUNDARY\n2, 1\n" + end).model.losses;
+  EXPECT_TRUE(std::ranges::any_of(losses, [](const Loss& l) { return l.name == "*BOUNDARY of later steps"; }));
+}
+
+TEST_F(Abaqus, FrequenciesAboutALoadedStateAreRefused) {
+  const std::string model = shell_deck("MATERIAL=FOAM\n.003"), statics = "*STATIC\n*END STEP\n",
+                    step = "*FREQUENCY\n3\n*END STEP\n", what = "*STATIC before *FREQUENCY";
+  refused(model + "*STEP\n" + statics + "*STEP, PERTURBATION\n" + step, "deck.inp:44", what);
+  refused(model + "*STEP, NLGEOM=YES\n" + statics + "*STEP\n" + step, "deck.inp:44", what);
+  EXPECT_EQ(read(model + "*STEP, NLGEOM=NO\n" + statics + "*STEP\n" + step).model.elements.size(), 1U);
+  EXPECT_EQ(read(model + "*STEP, PERTURBATION\n" + step).model.elements.size(), 1U);
+}
