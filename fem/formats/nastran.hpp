@@ -29,7 +29,8 @@ struct NastranOptions {
 ///
 /// Frames: nodes, orientation vectors and offsets are in the basic frame. Directions that a card gives in a
 /// displacement frame CD are kept in the basic frame: a frame that only renames the axes renames the directions; in a
-/// skew one an SPC or MPC becomes a LinearConstraint over the basic directions, and an RBE2 a RigidLink with axes.
+/// skew one an SPC or MPC becomes a LinearConstraint over the basic directions, and an RBE2 or RBAR a RigidLink with
+/// axes.
 struct NastranDeck {
   Mesh mesh;                        ///< GRIDs and elements; cell sets "pbar 100", point set "boundary"
   Model model;                      ///< its first nodes are those of the mesh, nodes made while reading follow

@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <array>
+#include <utility>
+
 #include "fem/formats/nastran/draft.hpp"
 
 namespace tenon::fem::nastran {
@@ -34,23 +37,17 @@ unsigned some_components(const Card& card, int field, const char* label) {
 
 bool is_number_with_point(std::string_view text) { return !parse_integer(text) && parse_real(text); }
 
-// EID GN CM GM1 GM2 ... [ALPHA]; CM in the displacement frame of each dependent grid
-void rbe2(Draft& draft, const Card& card) {
+/// Rigid links of grids whose `components`, in the displacement frame of each, follow the independent one.
+void follow(Draft& draft, const Card& card, int independent, const std::vector<int>& dependents, unsigned components) {
   const long id = card.id(1, "EID");
-  const int independent = draft.node(card, 2, "GN");
-  const unsigned components = some_components(card, 3, "CM");
-  std::vector<int> dependents;
-  const bool has_alpha = card.size() > 4 && is_number_with_point(card.at(card.size()));
-  for (const Range& range : draft.ranges(card, 4, has_alpha ? card.size() - 1 : card.size()))
-    for (const int node : draft.nodes_in(range, card)) dependents.push_back(node);
-  if (dependents.empty()) card.fail(4, "GM1", "a GRID");
-
   std::vector<RigidLink>& links = draft.deck.model.rigid_links;
   const std::size_t first = links.size();
   for (const int node : dependents) {
     if (node == independent)
-      card.refuse(4, fmt::format("{} makes GRID {} follow itself", id, card.at(2)),
-                  "Remove it from the dependent grids");
+      card.refuse(
+          0,
+          fmt::format("{} makes GRID {} follow itself", id, draft.deck.model.node_ids[static_cast<std::size_t>(node)]),
+          "Remove it from the dependent grids");
     const LinkDirections d = link_directions(draft, node, components);
     govern(draft, node, d);
     const bool same = links.size() > first && links.back().directions == d.directions && links.back().axes == d.axes;
@@ -60,6 +57,40 @@ void rbe2(Draft& draft, const Card& card) {
       links.push_back({independent, {node}, d.directions, d.axes, id});
   }
   draft.carries[static_cast<std::size_t>(independent)] = true;
+}
+
+// EID GN CM GM1 GM2 ... [ALPHA]
+void rbe2(Draft& draft, const Card& card) {
+  const int independent = draft.node(card, 2, "GN");
+  const unsigned components = some_components(card, 3, "CM");
+  std::vector<int> dependents;
+  const bool has_alpha = card.size() > 4 && is_number_with_point(card.at(card.size()));
+  for (const Range& range : draft.ranges(card, 4, has_alpha ? card.size() - 1 : card.size()))
+    for (const int node : draft.nodes_in(range, card)) dependents.push_back(node);
+  if (dependents.empty()) card.fail(4, "GM1", "a GRID");
+  follow(draft, card, independent, dependents, components);
+}
+
+// EID GA GB CNA CNB CMA CMB [ALPHA]: one end is independent in all six directions
+void rbar(Draft& draft, const Card& card) {
+  const int a = draft.node(card, 2, "GA"), b = draft.node(card, 3, "GB");
+  const std::array<unsigned, 4> c{card.components(4, "CNA"), card.components(5, "CNB"), card.components(6, "CMA"),
+                                  card.components(7, "CMB")};
+  const auto& [independent_a, independent_b, dependent_a, dependent_b] = c;
+  const bool from_a = independent_a == all_six && independent_b == 0 && dependent_a == 0,
+             from_b = independent_b == all_six && independent_a == 0 && dependent_b == 0;
+  if (!from_a && !from_b)
+    card.refuse(4, "has independent directions at both ends, or fewer than six",
+                "Write 123456 as CNA and leave CNB and CMA blank, or the other way round");
+  const unsigned dependent = from_a ? dependent_b : dependent_a;
+  follow(draft, card, from_a ? a : b, {from_a ? b : a}, dependent == 0 ? unsigned{all_six} : dependent);
+}
+
+// EID GA GB CB [ALPHA]
+void rbar1(Draft& draft, const Card& card) {
+  const unsigned dependent = card.components(4, "CB");
+  follow(draft, card, draft.node(card, 2, "GA"), {draft.node(card, 3, "GB")},
+         dependent == 0 ? unsigned{all_six} : dependent);
 }
 
 // EID - REFGRID REFC, then groups WT C G G ..., then perhaps UM and ALPHA
@@ -118,10 +149,12 @@ void rbe3(Draft& draft, const Card& card) {
 
 void read_links(Draft& draft) {
   Register known("rigid element");
-  for (const Card& card : draft.take("RBE2"))
-    if (known.admit(card.id(1, "EID"), card, draft.losses)) rbe2(draft, card);
-  for (const Card& card : draft.take("RBE3"))
-    if (known.admit(card.id(1, "EID"), card, draft.losses)) rbe3(draft, card);
+  using Read = void (*)(Draft&, const Card&);
+  constexpr std::array<std::pair<const char*, Read>, 4> kinds{
+      {{"RBE2", rbe2}, {"RBE3", rbe3}, {"RBAR", rbar}, {"RBAR1", rbar1}}};
+  for (const auto& [name, read] : kinds)
+    for (const Card& card : draft.take(name))
+      if (known.admit(card.id(1, "EID"), card, draft.losses)) read(draft, card);
 }
 
 void read_boundary(Draft& draft) {

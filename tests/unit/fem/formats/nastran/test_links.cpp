@@ -141,6 +141,24 @@ TEST(NastranLinks, CaseControlSelects) {
             1);
 }
 
+TEST(NastranLinks, RigidBarsAreLinksOfTwoGrids) {
+  const auto link = [](const std::string& card) {
+    const auto links = read_model(card).rigid_links;
+    EXPECT_EQ(links.size(), 1U);
+    return std::tuple(links.at(0).independent, links.at(0).dependents, links.at(0).directions, links.at(0).id);
+  };
+  const auto from_1 = link("RBE2,7,1,123456,3\n"), from_3 = link("RBE2,7,3,123456,1\n");
+  for (const char* card :
+       {"RBAR,7,1,3,123456\n", "RBAR,7,1,3,123456,,,123456\n", "RBAR1,7,1,3,123456\n", "RBAR1,7,1,3\n"})
+    EXPECT_EQ(link(card), from_1) << card;
+  EXPECT_EQ(link("RBAR,7,1,3,,123456\n"), from_3);
+  EXPECT_EQ(link("RBAR,7,1,3,123456,,,123\n"), link("RBE2,7,1,123,3\n"));
+  EXPECT_EQ(link("RBAR1,7,1,3,246\n"), link("RBE2,7,1,246,3\n"));
+  EXPECT_THAT(refused("RBAR,7,1,3,123,456\n"), HasSubstr("has independent directions at both ends"));
+  EXPECT_THAT(refused("RBAR,7,1,3,12345\n"), HasSubstr("or fewer than six"));
+  EXPECT_THAT(refused("RBAR,7,1,1,123456\n"), HasSubstr("makes GRID 1 follow itself"));
+}
+
 TEST(NastranLinks, SetsAreAddedOneByOne) {
   const std::string bulk = "BEGIN BULK\nGRID,1\nGRID,2,,1.\nSPC1,1,1,1\nSPC1,2,2,1\nSPCADD,7,1,";
   EXPECT_EQ(read_deck("CEND\nSPC=7\n" + bulk + "2\nENDDATA\n").model.supports.size(), 2U);
