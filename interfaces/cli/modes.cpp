@@ -77,6 +77,10 @@ int solve_and_show(const ModesOptions& options, fem::Model model, const fem::Mes
   Remarks remarks{.held = {}, .read_past = loss_lines(model.losses)};
   if (auto_spc) remarks.held = fem::hold_singular_directions(model, fem::assemble(model), fem::CheckLimits().singular);
   const fem::Structure structure = fem::assemble(model);
+  if (structure.n() == 0)
+    throw ModelError(
+        fmt::format("{}: nothing is free to move: supports, or links to what they hold, take all", model.source),
+        "Look at the sets that supports name: `tenon info` lists them with their sizes");
   reduction::Modes modes;
   {
     ProgressBar bar;

@@ -79,6 +79,10 @@ TEST_F(Cli, DecksHoldWhatHasNoStiffness) {
   ASSERT_EQ(along["frequencies_hz"].size(), 1U);
   EXPECT_NEAR(along["frequencies_hz"][0], std::sqrt(2e11 * 1e-4 / 5.0 / 8.0) / turns, 1e-10);
   EXPECT_THAT(tenon("modes " + deck).out, HasSubstr("held, as Nastran's AUTOSPC holds"));
+  const auto still = folder_.write("still.bdf", "GRDSET,,,,,,,123456\n" + mass).string();
+  const Ended nothing = tenon("modes " + still);
+  EXPECT_EQ(nothing.status, 2);
+  EXPECT_THAT(nothing.err, HasSubstr("nothing is free to move"));
 }
 
 TEST_F(Cli, InfoPrintsWhatTheMeshHolds) {
