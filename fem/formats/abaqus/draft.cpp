@@ -72,10 +72,10 @@ std::vector<int> Draft::nodes(const DataLines& line, std::size_t field, const ch
   const std::string name(line.at(field));
   const std::size_t dot = name.rfind('.');  // "arm-1.7"
   if (const auto id = dot == name.npos ? std::nullopt : parse_integer(std::string_view(name).substr(dot + 1)))
-    for (const Instance& instance : instances)
-      if (upper(instance.name) == upper(name.substr(0, dot)))
-        if (const auto found = node_of.find(instance.first_number + *id); found != node_of.end())
-          return {found->second};
+    if (const auto of = instance_of.find(upper(name.substr(0, dot))); of != instance_of.end())
+      if (const auto found = node_of.find(numbered_in(instances[static_cast<std::size_t>(of->second)], *id));
+          found != node_of.end())
+        return {found->second};
   return node_set(name, line.block(), line.place(field));
 }
 
@@ -96,11 +96,10 @@ std::string Draft::full_name(const std::string& name, const Block& block) const 
 }
 
 int Draft::instance(const Block& block) const {
+  if (const auto found = instance_of.find(block.upper_value("INSTANCE")); found != instance_of.end())
+    return found->second;
   std::vector<std::string> names;
-  for (std::size_t k = 0; k < instances.size(); ++k) {
-    if (upper(instances[k].name) == block.upper_value("INSTANCE")) return static_cast<int>(k);
-    names.push_back(instances[k].name);
-  }
+  for (const Instance& instance : instances) names.push_back(instance.name);
   const std::string near = near_miss(block.value("INSTANCE"), names);
   block.refuse(fmt::format("there is no instance '{}'", block.value("INSTANCE")),
                near.empty() ? "Define it by *INSTANCE" : fmt::format("Did you mean '{}'?", near));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -70,13 +71,15 @@ struct DraftMaterial {
 struct Instance {
   std::string name;
   Vec3 shift = Vec3::Zero();
-  Mat3 rotation = Mat3::Identity();  ///< a point x of the part lies at rotation x + shift
-  long first_number = 0;             ///< what its numbers of nodes and elements are counted from
+  Mat3 rotation = Mat3::Identity();              ///< a point x of the part lies at rotation x + shift
+  long first_number = 0;                         ///< what its numbers of nodes and elements are counted from
+  long room = std::numeric_limits<long>::max();  ///< they lie below, before that
 };
 
 struct Draft {
   Text text;
   std::vector<Instance> instances;
+  std::map<std::string, int> instance_of;  ///< upper case
   Instance model;
   AbaqusDeck deck;
   LossReport losses;
@@ -101,10 +104,14 @@ struct Draft {
   /// A point of the block's part as one of the assembly.
   Vec3 place(const Block& block, const Vec3& x) const { return scope(block).rotation * x + scope(block).shift; }
   /// A node's or element's number within the block's part as one of the deck.
-  long number(const Block& block, long given) const { return scope(block).first_number + given; }
+  long number(const Block& block, long given) const { return numbered_in(scope(block), given); }
   /// "arm-1.root" for a name within an instance, else the name itself; `key`: the same in upper case.
   std::string full_name(const std::string& name, const Block& block) const;
   std::string key(const std::string& name, const Block& block) const { return upper(full_name(name, block)); }
+  /// One that its part has no room for is no one's.
+  static long numbered_in(const Instance& instance, long given) {
+    return given < instance.room ? instance.first_number + given : std::numeric_limits<long>::max();
+  }
   /// Index of the instance that its INSTANCE= names; throws InputError with near misses.
   int instance(const Block& block) const;
   /// Nodes of an element of the deck.

@@ -192,30 +192,32 @@ void read_set(Draft& draft, const Block& block, bool of_nodes) {
   const auto& index = of_nodes ? draft.node_of : draft.element_of;
   Block within = block;  // members are those of the part that INSTANCE names
   if (block.has("INSTANCE")) within.scope = draft.instance(block);
-  const long from = draft.number(within, 0);
+  const auto number = [&](long given) { return draft.number(within, given); };
   std::vector<int> members;
   DataLines line(block);
   while (line.next()) {
     if (block.has("GENERATE")) {
-      const long first = line.integer(0, "the first number"), last = line.integer(1, "the last number");
+      const long first = line.integer(0, "the first number");
+      long last = line.integer(1, "the last number");
       const long step = line.at(2).empty() ? 1 : line.integer(2, "the step");
       if (first <= 0) line.fail(0, "a first number above zero");
       if (step <= 0 || last < first) line.fail(1, "a rising range with a step above zero");
+      last = std::min(last, draft.scope(within).room - 1);
       // a range may be longer than the mesh: walk over whichever is shorter
       if (const long steps = (last - first) / step; steps < static_cast<long>(index.size())) {
         for (long i = 0; i <= steps; ++i)  // a number past the last one might not exist
-          if (const auto found = index.find(from + first + i * step); found != index.end())
+          if (const auto found = index.find(number(first + i * step)); found != index.end())
             members.push_back(found->second);
       } else {
         for (const auto& [id, place] : index)
-          if (id >= from + first && id <= from + last && (id - from - first) % step == 0) members.push_back(place);
+          if (id >= number(first) && id <= number(last) && (id - number(first)) % step == 0) members.push_back(place);
       }
       continue;
     }
     for (std::size_t i = 0; i < line.size(); ++i) {
       if (line.at(i).empty()) continue;
       if (const auto id = parse_integer(line.at(i))) {
-        const auto found = index.find(from + *id);
+        const auto found = index.find(number(*id));
         if (found == index.end())
           line.refuse(i,
                       fmt::format("{} set '{}' names {} {}, which is not defined", of_nodes ? "node" : "element", name,

@@ -18,16 +18,20 @@ struct Part {
   bool placed = false;
 };
 
-/// Numbers of nodes and elements of one instance all lie below this power of ten.
+/// Numbers of nodes and elements all lie below this power of ten.
 long room_for_numbers(const std::vector<Block>& blocks) {
+  constexpr long most = 1'000'000'000'000L;
   long largest = 0;
   for (const Block& block : blocks) {
     if (block.keyword != "NODE" && block.keyword != "ELEMENT") continue;
     for (DataLines line(block); line.next();)
-      if (const auto id = parse_integer(line.at(0))) largest = std::max(largest, *id);
+      if (const auto id = parse_integer(line.at(0))) {
+        if (*id >= most) line.fail(0, "a number below 10^12, in a deck of instances");
+        largest = std::max(largest, *id);
+      }
   }
   long room = 10;
-  while (room <= largest && room < 1'000'000'000'000L) room *= 10;
+  while (room <= largest) room *= 10;
   return room;
 }
 
@@ -86,8 +90,8 @@ void refuse_directions(const Block& block) {
 // translation; then two points on an axis and an angle about it
 void Assembly::begin_instance(const Block& block) {
   Instance placement{.name = block.value("NAME")};
-  const auto same_name = [&](const Instance& other) { return upper(other.name) == upper(placement.name); };
-  if (placement.name.empty() || std::ranges::any_of(draft.instances, same_name))
+  const auto index = static_cast<int>(draft.instances.size());
+  if (placement.name.empty() || !draft.instance_of.emplace(upper(placement.name), index).second)
     block.refuse(
         fmt::format("instance '{}' {}", placement.name, placement.name.empty() ? "has no NAME" : "is a second one"),
         "Give every *INSTANCE a NAME of its own");
@@ -116,7 +120,7 @@ void Assembly::begin_instance(const Block& block) {
   if (kept > 100 * files)
     block.refuse("the parts placed up to here hold more than a hundred times what the deck does",
                  "Write the deck flat");
-  instance = static_cast<int>(draft.instances.size());
+  instance = index;
   draft.instances.push_back(std::move(placement));
   for (const Block& of_part : found->second.blocks) {
     if (!draft.instances.back().rotation.isIdentity(0.0)) refuse_directions(of_part);
@@ -161,11 +165,13 @@ void place_parts(Draft& draft) {
   const long room = room_for_numbers(draft.text.blocks);
   for (std::size_t k = 0; k < draft.instances.size(); ++k) {
     draft.instances[k].first_number = static_cast<long>(k) * room;
+    draft.instances[k].room = room;
     if (k > 0)
       draft.losses.add("*INSTANCE", fmt::format("nodes and elements of '{}' are numbered from {} on",
                                                 draft.instances[k].name, draft.instances[k].first_number + 1));
   }
   draft.model.first_number = static_cast<long>(draft.instances.size()) * room;
+  draft.model.room = room;
 }
 
 }  // namespace tenon::fem::abaqus

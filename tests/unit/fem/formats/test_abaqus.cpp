@@ -461,6 +461,17 @@ TEST_F(Abaqus, NamesOfPartsAndOfTheAssembly) {
   std::vector<std::array<int, 2>> held;
   for (const Support& support : deck.model.supports) held.push_back({support.dof.node, support.dof.direction});
   EXPECT_EQ(held, (std::vector<std::array<int, 2>>{{0, 0}, {0, 1}, {2, 2}, {0, 3}, {1, 3}}));
+  EXPECT_EQ(
+      read(arms(one, "*NSET, NSET=ALL, INSTANCE=One, GENERATE\n2, 9223372036854775807\n")).mesh.point_sets.at("ALL"),
+      (std::vector{1, 2}));
+  const std::string two = one + "*INSTANCE, NAME=Two, PART=Arm\n*END INSTANCE\n",
+                    all = "*NSET, NSET=ALL, INSTANCE=One, GENERATE\n2, ";
+  for (const char* last : {"13\n", "100000\n"})
+    EXPECT_EQ(read(arms(two, all + last)).mesh.point_sets.at("ALL"), (std::vector{1, 2})) << "none of the other's";
+  refused(arms(two, "*NSET, NSET=N, INSTANCE=One\n13\n"), "deck.inp:", "names node 13, which is not defined");
+  refused(arms(two, "*BOUNDARY\nOne.13, 1\n"), "deck.inp:", "there is no node set 'One.13'");
+  refused(arms(one, "*NODE\n1000000000000, 0, 0, 0\n"), "deck.inp:", "a number below 10^12, in a deck of instances");
+  refused(arms(one, "*BOUNDARY\nOne.9223372036854775807, 2\n"), "deck.inp:", "there is no node set");
   refused(arms(one, "*BOUNDARY\nOne.Toor, 2\n"), "deck.inp:", "there is no node set 'One.Toor'");
   refused(arms("*INSTANCE, NAME=Two, PART=Arm\n*END INSTANCE\n"), "deck.inp:", "there is no instance 'One'");
 }
