@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "fem/error.hpp"
 
 namespace tenon::fem {
@@ -25,17 +27,24 @@ void check(const Bush& bush, std::span<const Vec3> nodes) {
 
 void bush_matrices(const Bush& bush, std::span<const Vec3> nodes, ElementMatrices& out) {
   check(bush, nodes);
-  const Mat6 R = rotation6(bush.axes);
-  const Mat6 C = R * Eigen::Map<const Vec6>(bush.k.data()).asDiagonal() * R.transpose();
   const int n = bush.node_b < 0 ? 6 : 12;
-  Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::ColMajor, 6, 12> T(6, n);  // what P moves from a to b
+  using Motion = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::ColMajor, 6, 12>;
+  Motion T(6, n);  // what P moves from a to b
   T.leftCols<6>() = -tau(bush.offset);
+  double arm = bush.offset.norm();
   if (bush.node_b >= 0) {
     const Vec3 point = nodes[static_cast<std::size_t>(bush.node_a)] + bush.offset;
-    T.rightCols<6>() = tau(point - nodes[static_cast<std::size_t>(bush.node_b)]);
+    const Vec3 from_b = point - nodes[static_cast<std::size_t>(bush.node_b)];
+    T.rightCols<6>() = tau(from_b);
+    arm = std::max(arm, from_b.norm());
   }
-  const Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::ColMajor, 6, 12> CT = C.lazyProduct(T);
-  out.K = T.transpose().lazyProduct(CT);
+  Motion local = rotation6(bush.axes).transpose().lazyProduct(T);
+  // a force along the line to P has no moment: what rounding leaves of one would be a stiffness of rotations
+  for (int i = 0; i < 3; ++i)
+    for (int first = 3; first < n; first += 6)
+      if (local.row(i).segment<3>(first).norm() < 1e-14 * arm) local.row(i).segment<3>(first).setZero();
+  const Motion forces = Eigen::Map<const Vec6>(bush.k.data()).asDiagonal() * local;
+  out.K = local.transpose().lazyProduct(forces);
   for (int j = 0; j < n; ++j)  // both triangles carry their own round-off
     for (int i = j + 1; i < n; ++i) out.K(i, j) = out.K(j, i);
   out.M.setZero(n, n);

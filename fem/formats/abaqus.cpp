@@ -52,6 +52,12 @@ constexpr std::array harmless{
     Harmless{"COUPLED TEMPERATURE", analysis},
     Harmless{"UNCOUPLED TEMPERATURE", analysis},
     Harmless{"VISCO", analysis},
+    Harmless{"RANDOM RESPONSE", analysis},
+    Harmless{"PSD-DEFINITION", analysis},
+    Harmless{"CORRELATION", analysis},
+    Harmless{"MATRIX GENERATE", analysis},
+    Harmless{"MATRIX OUTPUT", analysis},
+    Harmless{"SECTION CONTROLS", "control of reduced integration, which these elements do without"},
     Harmless{"GREEN", analysis},
     Harmless{"SUBSTRUCTURE", analysis},
     Harmless{"SELECT", analysis},
@@ -119,6 +125,9 @@ const char* harmless_note(const std::string& keyword) {
 
 /// Without what they make the deck is another one.
 void refuse_generators(const Draft& draft) {
+  for (const Block& block : draft.text.blocks)
+    if (block.has("INPUT") && understood.contains(block.keyword))
+      block.refuse(fmt::format("*{}, INPUT= of another file is not read", block.keyword), "Bring it in by *INCLUDE");
   static const std::set<std::string> generators{"NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "PARAMETER"};
   for (const Block& block : draft.text.blocks)
     if (generators.contains(block.keyword))
@@ -174,6 +183,12 @@ AbaqusDeck read_abaqus(const std::filesystem::path& path, const AbaqusOptions& o
   if (deck.has_sections) {
     read_links(draft);
     read_supports(draft);
+  } else {
+    for (const Block& block : draft.text.blocks)
+      for (const char* of_model : {"BOUNDARY", "EQUATION", "MPC", "RIGID BODY", "COUPLING"})
+        if (block.keyword == of_model)
+          draft.losses.add("*" + block.keyword,
+                           "supports and links of a mesh without sections: a scene states its own");
   }
   classify_rest(draft);
   if (!options.allow_losses && deck.has_sections) draft.losses.refuse_physical();

@@ -29,11 +29,11 @@ struct AbaqusOptions {
 /// it holds, OP=NEW takes away those before its step. Frequencies about a loaded state (*STATIC before, with
 /// PERTURBATION or NLGEOM) are refused.
 ///
-/// Elements. B31 and its like are beams; B32 (three nodes) two beams; S3, S4 shells; S6 four triangles; S8 four
-/// triangles and a quadrilateral in the middle, S9 four quadrilaterals: each split is a notice in the losses. MASS,
-/// ROTARYI, SPRING1, SPRING2 (own axes by *ORIENTATION), SPRINGA. T3D2 is a rod, T3D3 two rods whose middle node
-/// follows the ends across them. Elements of solids, membranes and every other kind are kept as cells and stand in the
-/// losses as carrying stiffness and mass where the deck gives them a section.
+/// Elements. B31 and its like are beams (not B33, nor those of open sections); B32 (three nodes) two beams; S3, S4
+/// shells; S6 four triangles; S8 four triangles and a quadrilateral in the middle, S9 four quadrilaterals: each split
+/// is a notice in the losses. MASS, ROTARYI, SPRING1, SPRING2 (own axes by *ORIENTATION), SPRINGA. T3D2 is a rod, T3D3
+/// two rods whose middle node follows the ends across them. Elements of solids, membranes and every other kind are kept
+/// as cells and stand in the losses as carrying stiffness and mass where the deck gives them a section.
 ///
 /// Sections. The local 1-direction n1 becomes the orientation (y), n2 = t × n1 is z: I11 → Iy, I22 → Iz. CIRC with one
 /// number has a radius (Abaqus), with two a diameter in each direction (CalculiX). Shear coefficients are Cowper's,

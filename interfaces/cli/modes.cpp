@@ -81,6 +81,9 @@ int solve_and_show(const ModesOptions& options, fem::Model model, const fem::Mes
     throw ModelError(
         fmt::format("{}: nothing is free to move: supports, or links to what they hold, take all", model.source),
         "Look at the sets that supports name: `tenon info` lists them with their sizes");
+  if (structure.M.nonZeros() == 0)
+    throw ModelError(fmt::format("{}: nothing has mass", model.source),
+                     "Give its materials a density, or masses to its nodes");
   reduction::Modes modes;
   {
     ProgressBar bar;

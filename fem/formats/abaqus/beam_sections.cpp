@@ -9,9 +9,11 @@
 namespace tenon::fem::abaqus {
 namespace {
 
+/// A line left blank, or none, is the default's.
 void read_n1(DataLines& line, Vec3& n1) {
-  if (!line.next() || line.size() < 3) return;
-  n1 = Vec3(line.real(0, "n1"), line.real(1, "n1"), line.real(2, "n1"));
+  if (line.blank_follows()) return;
+  if (!line.next() || line.size() < 2) return;  // numbers of points of integration
+  n1 = Vec3(line.real(0, "n1"), line.real(1, "n1"), line.real(2, "n1", 0.0));
   if (!(n1.norm() > 0.0)) line.fail(0, "a direction of some length");
 }
 
@@ -53,7 +55,7 @@ void i_section(const DataLines& line, DraftBeamSection& out) {
 void general_section(const Block& block, DataLines& line, DraftBeamSection& out) {
   const double A = line.positive(0, "A"), I11 = line.positive(1, "I11"), I12 = line.real(2, "I12", 0.0),
                I22 = line.positive(3, "I22"), J = line.positive(4, "J");
-  out.section = {.name = "general", .A = A, .Iy = I11, .Iz = I22, .Iyz = I12, .J = J, .kappa_y = 0.0, .kappa_z = 0.0};
+  out.section = {.name = "general", .A = A, .Iy = I11, .Iz = I22, .Iyz = I12, .J = J, .kappa_y = 1.0, .kappa_z = 1.0};
   read_n1(line, out.n1);
   if (block.keyword != "BEAM GENERAL SECTION") return;
   if (!line.next()) block.refuse("*BEAM GENERAL SECTION has no line with E and G", "Add it as the third data line");
@@ -88,6 +90,7 @@ DraftBeamSection beam_section(const Block& block, double nu) {
     out.section = rectangle(line.positive(0, "a"), line.positive(1, "b"), nu);
   } else if (shape == "CIRC" && line.at(1).empty()) {
     out.section = circle(line.positive(0, "the radius"), nu);
+    out.one_number = true;
   } else if (shape == "CIRC") {
     const double d1 = line.positive(0, "the diameter in direction 1"), d2 = line.positive(1, "the one in direction 2");
     if (d1 != d2) out.unread = "CIRC with two different diameters (an ellipse)";

@@ -59,6 +59,10 @@ void LossReport::refuse_physical() const {
 }
 
 int Draft::node(const DataLines& line, std::size_t field, const char* what) const {
+  if (line.at(field).find('.') != std::string_view::npos && !parse_real(line.at(field))) {  // "arm-1.7"
+    const std::vector<int> named = nodes(line, field, what);
+    if (named.size() == 1) return named.front();
+  }
   const long id = line.integer(field, what);
   const auto found = node_of.find(number(line.block(), id));
   if (found == node_of.end())

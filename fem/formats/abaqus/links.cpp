@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "fem/formats/abaqus/draft.hpp"
 
@@ -58,6 +59,11 @@ void LinkReader::equate(int a, int direction_a, int b, int direction_b) {
 // all six directions of the nodes follow REF NODE; PIN NSET: the translations only. In CalculiX the translations of ROT
 // NODE are the body's rotations.
 void LinkReader::rigid_body(const Block& block) {
+  static const std::set<std::string> known{"REF NODE", "NSET",     "TIE NSET",           "PIN NSET",
+                                           "ELSET",    "ROT NODE", "ANALYTICAL SURFACE", "ISOTHERMAL"};
+  for (const auto& [parameter, value] : block.parameters)
+    if (!known.contains(parameter))
+      draft.losses.add_physical(fmt::format("*RIGID BODY, {}", parameter), "this parameter is not read", block.place);
   const int ref = reference(block, "REF NODE");
   std::vector<int> nodes;
   for (const char* parameter : {"NSET", "TIE NSET"})
@@ -148,10 +154,15 @@ void LinkReader::coupling(const Block& block, const Block* kind) {
   for (const int node : nodes)
     if (draft.node_axes.contains(node))
       draft.losses.add_physical("*COUPLING", "nodes with *TRANSFORM are not read in it", block.place);
+  if (block.has("INFLUENCE RADIUS"))
+    draft.losses.add_physical("*COUPLING, INFLUENCE RADIUS", "this parameter is not read", block.place);
   if (kind->keyword == "KINEMATIC") {
     rigid(ref, std::move(nodes), bits);
     return;
   }
+  if (kind->has("COUPLING"))
+    draft.losses.add_physical("*DISTRIBUTING, COUPLING", "this parameter is not read", kind->place);
+  draft.losses.add("*DISTRIBUTING", "nodes of the surface count alike; Abaqus weighs those of elements by area");
   if (kind->has("WEIGHTING METHOD") && kind->upper_value("WEIGHTING METHOD") != "UNIFORM")
     draft.losses.add_physical("*DISTRIBUTING", "weights that vary are read as uniform", kind->place);
   AverageLink link{.reference = ref, .directions = bits, .nodes = {}, .id = next_id++};
@@ -319,19 +330,24 @@ std::vector<const Block*> supports_in_force(Draft& draft) {
 /// Frequencies about a loaded state have its stress in K: CalculiX's *STEP, PERTURBATION behind a *STATIC step,
 /// Abaqus's steps behind one with NLGEOM.
 void refuse_prestress(Draft& draft) {
-  bool loaded = false, nonlinear = false;
+  bool loaded = false, nonlinear = false, in_frequency = false;
   const Block* step = nullptr;
   for (const Block& block : draft.text.blocks) {
     if (block.keyword == "STEP") {
       step = &block;
       nonlinear = nonlinear || (block.has("NLGEOM") && block.upper_value("NLGEOM") != "NO");
     }
+    const bool load = block.keyword == "CLOAD" || block.keyword == "DLOAD" || block.keyword == "DSLOAD";
+    if (load && in_frequency)
+      draft.losses.add_physical("*" + block.keyword + " in a *FREQUENCY step",
+                                "its stress or softening is part of the stiffness", block.place);
     if (block.keyword == "STATIC" && step && !step->has("PERTURBATION")) loaded = true;
+    if (block.keyword == "END STEP" && in_frequency) return;
     if (block.keyword != "FREQUENCY" || !step) continue;
     if (loaded && (nonlinear || step->has("PERTURBATION")))
       draft.losses.add_physical("*STATIC before *FREQUENCY", "the stress that it leaves stiffens the structure",
                                 step->place);
-    return;
+    in_frequency = true;
   }
 }
 

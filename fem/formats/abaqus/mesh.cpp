@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 
 #include "fem/formats/abaqus/draft.hpp"
 
@@ -16,7 +17,7 @@ struct Family {
 
 // The longest prefix that fits decides; what follows it is reduced integration, hybrid form and the like.
 constexpr std::array families{Family{"B31", Formulation::beam, CellType::line},
-                              Family{"B33", Formulation::beam, CellType::line},
+                              Family{"B33", Formulation::other, CellType::line},
                               Family{"B32", Formulation::beam, CellType::line3},
                               Family{"S3", Formulation::shell, CellType::triangle},
                               Family{"STRI3", Formulation::shell, CellType::triangle},
@@ -90,6 +91,9 @@ ElementType element_type(const std::string& name) {
   if (name == "SPRINGA") return {Formulation::axial_spring, {}, 2};
   if (name == "DASHPOTA" || name == "DASHPOT2") return {Formulation::other, {}, 2};
   if (name == "DASHPOT1" || name == "DCOUP3D") return {Formulation::other, {}, 1};
+  if (name.starts_with("B3") && name.find("OS") != name.npos)  // open sections: warping is a seventh dof
+    return {Formulation::other, name.starts_with("B32") ? CellType::line3 : CellType::line,
+            name.starts_with("B32") ? 3 : 2};
   const Family* best = nullptr;
   for (const Family& family : families)
     if (name.starts_with(family.prefix) &&
@@ -186,6 +190,11 @@ namespace {
 
 /// *NSET or *ELSET: numbers, ranges (GENERATE) and names of other sets of its kind.
 void read_set(Draft& draft, const Block& block, bool of_nodes) {
+  static const std::set<std::string> known{"NSET", "ELSET", "GENERATE", "INSTANCE", "INTERNAL", "UNSORTED", "NAME"};
+  for (const auto& [parameter, value] : block.parameters)
+    if (!known.contains(parameter))
+      block.refuse(fmt::format("*{} has a parameter {}, which is not read", block.keyword, parameter),
+                   "Write GENERATE in full, or take the parameter out");
   const char* const kind = of_nodes ? "NSET" : "ELSET";
   const std::string name = block.value(kind);
   if (name.empty()) block.refuse(fmt::format("*{} has no name", kind), fmt::format("Write *{0}, {0}=name", kind));
@@ -203,6 +212,7 @@ void read_set(Draft& draft, const Block& block, bool of_nodes) {
       if (first <= 0) line.fail(0, "a first number above zero");
       if (step <= 0 || last < first) line.fail(1, "a rising range with a step above zero");
       last = std::min(last, draft.scope(within).room - 1);
+      const std::size_t before = members.size();
       // a range may be longer than the mesh: walk over whichever is shorter
       if (const long steps = (last - first) / step; steps < static_cast<long>(index.size())) {
         for (long i = 0; i <= steps; ++i)  // a number past the last one might not exist
@@ -212,6 +222,11 @@ void read_set(Draft& draft, const Block& block, bool of_nodes) {
         for (const auto& [id, place] : index)
           if (id >= number(first) && id <= number(last) && (id - number(first)) % step == 0) members.push_back(place);
       }
+      if (members.size() == before)
+        line.refuse(0,
+                    fmt::format("the range {} to {} of set '{}' holds no {}", first, line.at(1), name,
+                                of_nodes ? "node" : "element"),
+                    "Correct the numbers");
       continue;
     }
     for (std::size_t i = 0; i < line.size(); ++i) {

@@ -87,6 +87,9 @@ void SectionReader::beams(const Block& block) {
     return;
   }
   s.n1 = draft.scope(block).rotation * s.n1;
+  if (s.one_number)
+    draft.losses.add("*BEAM SECTION, SECTION=CIRC",
+                     "its one number is the radius, as in Abaqus; CalculiX takes it for the diameter");
   s.section.name = block.value("ELSET");
   const int material_index = add(s.material ? *s.material : named->material);
   const int section = static_cast<int>(model().beam_sections.size());

@@ -232,6 +232,12 @@ bool DataLines::next() {
   return false;
 }
 
+bool DataLines::blank_follows() const {
+  if (piece_ >= block_->data.size() || at_ >= block_->data[piece_].text.size()) return false;
+  std::string_view rest = block_->data[piece_].text.substr(at_);
+  return trim(take_line(rest)).empty();
+}
+
 Place DataLines::place(std::size_t i) const {
   const std::string& file = block_->data[std::min(piece_, block_->data.size() - 1)].source->name;
   const std::string_view field = at(i);

@@ -57,6 +57,9 @@ class DataLines {
   std::size_t size() const { return fields_.size(); }
   bool open() const { return open_; }
 
+  /// Whether the next line of the block is empty: `next` passes it over.
+  bool blank_follows() const;
+
   /// Field i, "" beyond the line's end.
   std::string_view at(std::size_t i) const { return i < fields_.size() ? fields_[i] : std::string_view{}; }
   long integer(std::size_t i, const char* what) const;

@@ -288,6 +288,12 @@ std::vector<Case> link_cases() {
       lines("unknown keyword", "*FANCY\n", {"*FANCY", "not known here"}, {{16, 0}}),
       lines("keyword with a typing error", "*BUONDARY\n1, 1, 6\n", {"*BUONDARY", "not known here"}, {{16, 0}}),
       lines("parts that are tied", "*TIE, NAME=T\nA, B\n", {"*TIE"}, {{16, 0}}),
+      lines("range beyond the nodes", "*NSET, NSET=N, GENERATE\n9223372036854775806, 9223372036854775807, 1\n",
+            {"holds no node"}, {{17, 1}}),
+      lines("shortened parameter", "*NSET, NSET=N, GEN\n1, 4\n", {"a parameter GEN, which is not read"}, {{16, 0}}),
+      lines("equations of another file", "*EQUATION, INPUT=eq.txt\n", {"INPUT= of another file"}, {{16, 0}}),
+      lines("reference misspelt", "*RIGID BODY, REF NODE=1, NSET=ALL, ROTNODE=2\n", {"*RIGID BODY, ROTNODE"},
+            {{16, 0}}),
       lines("nodes made by rule", "*NGEN\n1, 9, 1\n", {"*NGEN makes parts of the deck by rule"}, {{16, 0}}),
       lines("part that is not defined", "*INSTANCE, NAME=A, PART=P\n*END INSTANCE\n", {"there is no part 'P'"},
             {{16, 0}}),
@@ -347,9 +353,8 @@ std::vector<Case> text_cases() {
   odd("no line end at the end", whole_deck.substr(0, whole_deck.size() - 1));
   odd("Fortran's exponent", replaced(whole_deck, "2.1E11", "2.1D+11"));
   odd("identical node again", replaced(whole_deck, "*NSET", "*NODE\n5, 2., 0., 0.\n*NSET"));
-  odd("range beyond the nodes up to the largest number",
-      replaced(whole_deck, "*NSET, NSET=ROOT\n1, 4",
-               "*NSET, NSET=ROOT, GENERATE\n1, 4, 3\n9223372036854775806, 9223372036854775807, 1"));
+  odd("range up to the largest number",
+      replaced(whole_deck, "*NSET, NSET=ROOT\n1, 4", "*NSET, NSET=ROOT, GENERATE\n1, 4, 3\n4, 9223372036854775807, 1"));
   odd("set that is empty", replaced(whole_deck, "*MATERIAL", "*ELSET, ELSET=NIL\n*MATERIAL"));
   odd("block of elements that is empty", replaced(whole_deck, "*MATERIAL", "*ELEMENT, TYPE=S4\n*MATERIAL"));
   odd("one modulus at two temperatures",

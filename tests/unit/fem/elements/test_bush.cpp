@@ -79,6 +79,20 @@ TEST(Bush, ForceAtThePointAndItsMomentsAtTheNodes) {
   }
 }
 
+// Rounding would leave a mass on a leaning spring a stiffness of its rotations, without any mass to turn.
+TEST(Bush, AlongItsLineItTurnsNothing) {
+  Bush bush{.node_a = 0, .node_b = 1, .k = {1e6, 0.0, 0.0, 0.0, 0.0, 0.0}, .id = 8};
+  const Vec3 line = apart[1] - apart[0];
+  bush.axes.col(0) = line.normalized();
+  bush.axes.col(1) = bush.axes.col(0).unitOrthogonal();
+  bush.axes.col(2) = bush.axes.col(0).cross(bush.axes.col(1));
+  bush.offset = 0.5 * line;
+  ElementMatrices e;
+  bush_matrices(bush, apart, e);
+  for (const int first : {3, 9}) EXPECT_EQ(e.K.middleRows(first, 3).cwiseAbs().maxCoeff(), 0.0);
+  EXPECT_NEAR(bush.axes.col(0).dot(e.K.topLeftCorner(3, 3) * bush.axes.col(0)), 1e6, 1e-8);
+}
+
 TEST(Bush, ToGroundIsTheOneEndsBlock) {
   Bush bush = odd_bush();
   ElementMatrices both, ground;

@@ -519,3 +519,25 @@ TEST_F(Abaqus, FrequenciesAboutALoadedStateAreRefused) {
   EXPECT_EQ(read(model + "*STEP, NLGEOM=NO\n" + statics + "*STEP\n" + step).model.elements.size(), 1U);
   EXPECT_EQ(read(model + "*STEP, PERTURBATION\n" + step).model.elements.size(), 1U);
 }
+
+TEST_F(Abaqus, DirectionsOfBeamsInFewerNumbersOrByDefault) {
+  const auto n1 = [&](const std::string& line) {
+    return std::get<Beam>(
+               read("*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n*ELEMENT, TYPE=B31, ELSET=B\n1, 1, 2\n*MATERIAL, NAME=M\n"
+                    "*ELASTIC\n2E11, .3\n*BEAM SECTION, ELSET=B, MATERIAL=M, SECTION=RECT\n.02, .01\n" +
+                    line)
+                   .model.elements.at(0))
+        .orientation;
+  };
+  EXPECT_EQ(n1("0., 1.\n"), Vec3(0, 1, 0));
+  EXPECT_EQ(n1("0, 1, 0\n5, 5\n"), Vec3(0, 1, 0));
+  EXPECT_EQ(n1("\n5, 5\n"), Vec3(0, 0, -1)) << "left blank: what follows are points of integration";
+  EXPECT_EQ(n1(""), Vec3(0, 0, -1));
+}
+
+TEST_F(Abaqus, LoadsOfAFrequencyStepAreRefused) {
+  refused(shell_deck("MATERIAL=FOAM\n.003") +
+              "*STEP, PERTURBATION\n*FREQUENCY\n3\n*DLOAD\nSKIN, CENTRIF, 100., 0,0,0, 0,0,1\n"
+              "*END STEP\n",
+          "deck.inp:44", "*DLOAD in a *FREQUENCY step");
+}
