@@ -7,6 +7,7 @@
 #include "fem/structure.hpp"
 #include "reduction/modes.hpp"
 #include "tests/analytic/calculix/ccx.hpp"
+#include "tests/support/oracle.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace tenon;
@@ -74,18 +75,18 @@ void compare(const TemporaryFolder& folder, const std::string& deck, double tole
 // above and come down as elements are added (10 a member: 4.0 % at worst, 20: 1.6 %). Rectangles stay 3 % apart in
 // torsion: one element cannot warp as Saint-Venant's section does.
 TEST(CalculixFrequencies, APortalOfBeams) {
-  if (!calculix::installed()) GTEST_SKIP() << "CalculiX (calculix-ccx) is not installed";
+  TENON_SKIP_WITHOUT(calculix::installed(), "CalculiX (calculix-ccx)");
   compare(TemporaryFolder(), portal(20), 2e-2);
 }
 
 TEST(CalculixFrequencies, APlateOfShells) {
-  if (!calculix::installed()) GTEST_SKIP() << "CalculiX (calculix-ccx) is not installed";
+  TENON_SKIP_WITHOUT(calculix::installed(), "CalculiX (calculix-ccx)");
   compare(TemporaryFolder(), plate(10, "MATERIAL=STEEL\n.01"), 2e-2);
 }
 
 // Three layers of a lamina across, along and at 30°, unsymmetric, with a density of their own each.
 TEST(CalculixFrequencies, APlateOfLayers) {
-  if (!calculix::installed()) GTEST_SKIP() << "CalculiX (calculix-ccx) is not installed";
+  TENON_SKIP_WITHOUT(calculix::installed(), "CalculiX (calculix-ccx)");
   const std::string layers =
       "COMPOSITE\n.004,,PLY,ACROSS\n.004,,HEAVY,ALONG\n.002,,PLY,OBLIQUE\n"
       "*MATERIAL, NAME=PLY\n*ELASTIC, TYPE=ENGINEERING CONSTANTS\n"

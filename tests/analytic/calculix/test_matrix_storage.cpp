@@ -9,6 +9,7 @@
 #include "fem/formats/matrices/calculix.hpp"
 #include "tests/analytic/calculix/block.hpp"
 #include "tests/analytic/calculix/ccx.hpp"
+#include "tests/support/oracle.hpp"
 #include "tests/unit/fem/formats/scratch.hpp"
 
 using namespace tenon;
@@ -17,7 +18,7 @@ using fem::testing::Scratch;
 /// The tolerance asked for is 1e-8 of the frequencies. The files carry 14 digits; CalculiX prints seven of each
 /// frequency, so the comparison takes the doubles of its .eig file.
 TEST(MatrixStorage, GivesCalculixsOwnFrequencies) {
-  if (!calculix::installed()) GTEST_SKIP() << "CalculiX (calculix-ccx) is not installed";
+  TENON_SKIP_WITHOUT(calculix::installed(), "CalculiX (calculix-ccx)");
   const Scratch folder;
   const calculix::Block block;
   folder.write("part.inp", block.deck("SOLVER=MATRIXSTORAGE"));
@@ -53,7 +54,7 @@ TEST(MatrixStorage, GivesCalculixsOwnFrequencies) {
 
 /// CalculiX makes solids of beams and labels their rows by the nodes of the beam.
 TEST(MatrixStorage, OfBeamsIsRefused) {
-  if (!calculix::installed()) GTEST_SKIP() << "CalculiX (calculix-ccx) is not installed";
+  TENON_SKIP_WITHOUT(calculix::installed(), "CalculiX (calculix-ccx)");
   const Scratch folder;
   folder.write("beam.inp",
                "*NODE, NSET=NALL\n1,0.,0.,0.\n2,.5,0.,0.\n3,1.,0.,0.\n*ELEMENT, TYPE=B32R, ELSET=EALL\n1,1,2,3\n"

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "tests/analytic/fem/shell_course.hpp"
+#include "tests/support/oracle.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace tenon::fem::testing;
@@ -48,7 +49,7 @@ double our_deflection(const std::string& problem, Grid grid, double t) {
 // margin is what it leaves open.
 TEST(Mitc4Plus, OnTheSameMeshesItIsNoCloser) {
   constexpr double margin = 0.002;
-  if (std::system("/usr/bin/python3 -c 'import numpy' 2> /dev/null") != 0) GTEST_SKIP() << "numpy is not installed";
+  TENON_SKIP_WITHOUT(std::system("/usr/bin/python3 -c 'import numpy' 2> /dev/null") == 0, "python3-numpy");
   const TemporaryFolder folder;
   const auto table = folder.path() / "table";
   ASSERT_EQ(std::system(fmt::format("OPENBLAS_NUM_THREADS=1 /usr/bin/python3 {} > {}",

@@ -12,6 +12,7 @@
 #include <functional>
 
 #include "fem/error.hpp"
+#include "tests/support/oracle.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace tenon;
@@ -29,8 +30,7 @@ namespace {
 class Med : public ::testing::Test {
  protected:
   void SetUp() override {
-    if (std::system("/usr/bin/python3 -c 'import med.medfile' 2> /dev/null") != 0)
-      GTEST_SKIP() << "python3-med is not installed";
+    TENON_SKIP_WITHOUT(std::system("/usr/bin/python3 -c 'import med.medfile' 2> /dev/null") == 0, "python3-med");
     const std::string log = (folder_.path() / "log").string();
     const std::string command =
         fmt::format("/usr/bin/python3 {} {} > {} 2>&1", TENON_SOURCE_DIR "/tests/consistency/med/make_files.py",

@@ -12,6 +12,7 @@
 #include "assembly/scene.hpp"
 #include "fem/structure.hpp"
 #include "reduction/modes.hpp"
+#include "tests/support/oracle.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace tenon;
@@ -58,7 +59,7 @@ constexpr const char* steel = ", material: {E: 2.1e11, nu: 0.3, rho: 7800}";
 }  // namespace
 
 TEST_F(GmshFormats, GiveTheSameFrequencies) {
-  if (gmsh_is_missing()) GTEST_SKIP() << "Gmsh is not installed";
+  TENON_SKIP_WITHOUT(!gmsh_is_missing(), "gmsh");
   const std::string sections = fmt::format("{}, sections: {{everywhere: {{shell: 0.004}}}}", steel);
   const Eigen::VectorXd reference = frequencies(mesh("a.msh", part, "-format msh41 -bin"), sections);
   struct Format {
@@ -93,7 +94,7 @@ TEST_F(GmshFormats, GiveTheSameFrequencies) {
 
 // MSH 2.2 lists an element once for every physical group that it is in; it is one element all the same.
 TEST_F(GmshFormats, OverlappingGroupsDoNotCountTwice) {
-  if (gmsh_is_missing()) GTEST_SKIP() << "Gmsh is not installed";
+  TENON_SKIP_WITHOUT(!gmsh_is_missing(), "gmsh");
   const std::string groups = fmt::format("{}Physical Surface(\"all\") = {{1, 2}};\n", part);
   const std::string sections = fmt::format("{}, sections: {{floor: {{shell: 0.004}}, wall: {{shell: 0.006}}}}", steel);
   const std::string whole = fmt::format("{}, sections: {{all: {{shell: 0.004}}}}", steel);

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "fem/formats/read_mesh.hpp"
+#include "tests/support/oracle.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace tenon;
@@ -92,8 +93,8 @@ void compare(const fem::Mesh& mesh, const Truth& truth) {
 
 TEST(Meshio, WhatItWritesIsWhatWeRead) {
   constexpr const char* python = "/usr/bin/python3";
-  if (std::system(fmt::format("{} -c 'import meshio, h5py' 2> /dev/null", python).c_str()) != 0)
-    GTEST_SKIP() << "python3-meshio or python3-h5py is not installed";
+  TENON_SKIP_WITHOUT(std::system(fmt::format("{} -c 'import meshio, h5py' 2> /dev/null", python).c_str()) == 0,
+                     "python3-meshio or python3-h5py");
   const TemporaryFolder folder;
   const std::string script = TENON_SOURCE_DIR "/tests/consistency/meshio/make_files.py";
   const std::string command =

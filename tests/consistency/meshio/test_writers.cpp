@@ -14,6 +14,7 @@
 #include "fem/formats/gmsh.hpp"
 #include "fem/formats/vtu.hpp"
 #include "fem/formats/write_gmsh.hpp"
+#include "tests/support/oracle.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace tenon;
@@ -128,7 +129,7 @@ bool has(const char* command) { return std::system(fmt::format("{} > /dev/null 2
 
 TEST(MeshWriters, MeshioReadsWhatTheyWrite) {
   constexpr const char* python = "/usr/bin/python3";
-  if (!has("/usr/bin/python3 -c 'import meshio'")) GTEST_SKIP() << "python3-meshio is not installed";
+  TENON_SKIP_WITHOUT(has("/usr/bin/python3 -c 'import meshio'"), "python3-meshio");
   // meshio 5.0 knows no dimension of three types, and reads wedge18 in VTK's order, as it writes it
   const std::set unread{CellType::wedge15, CellType::wedge18, CellType::pyramid13, CellType::pyramid14};
   std::vector<CellType> types;
@@ -257,7 +258,7 @@ TEST(MeshWriters, NumbersBeyondFourBytes) {
 
 // Gmsh itself opens the files and writes them in its older format, which has other nodes' and groups' rules.
 TEST(MeshWriters, GmshReadsWhatTheyWrite) {
-  if (!has("gmsh --version")) GTEST_SKIP() << "gmsh is not installed";
+  TENON_SKIP_WITHOUT(has("gmsh --version"), "gmsh");
   const TemporaryFolder folder;
   std::mt19937 random(11);
   const std::vector<CellType> types(all_types.begin(), all_types.end());

@@ -9,6 +9,7 @@
 
 #include "tests/analytic/calculix/block.hpp"
 #include "tests/analytic/calculix/ccx.hpp"
+#include "tests/support/oracle.hpp"
 #include "tests/unit/fem/formats/matrices/op4_files.hpp"
 #include "tests/unit/interfaces/program.hpp"
 
@@ -62,7 +63,7 @@ void expect_frequencies(const json& found, std::size_t first, const std::vector<
 class CalculixScene : public Program {
  protected:
   void SetUp() override {
-    if (!tenon::calculix::installed()) GTEST_SKIP() << "CalculiX (calculix-ccx) is not installed";
+    TENON_SKIP_WITHOUT(tenon::calculix::installed(), "CalculiX (calculix-ccx)");
     for (const auto& [job, deck] : {std::pair("held", block_.deck("SOLVER=MATRIXSTORAGE")),
                                     std::pair("free", block_.deck("SOLVER=MATRIXSTORAGE", false)),
                                     std::pair("own", block_.deck("STORAGE=YES"))}) {

@@ -74,7 +74,7 @@ TEST_F(MatrixScene, SaysWhatItCannotDo) {
 // closures. Its printed eigenvalues of the assembly have seven digits.
 TEST_F(MatrixScene, JoinsTheSuperelementsOfATruss) {
   const fs::path inboard = tenon::fem::shared_deck("inboard.asm"), outboard = tenon::fem::shared_deck("outboard.asm");
-  if (!fs::exists(inboard)) GTEST_SKIP() << "the reference decks are absent: set TENON_SHARED to their folder";
+  if (!fs::exists(inboard)) GTEST_SKIP() << "no decks: set TENON_SHARED";  // Nastran's, not to be copied here
   std::string text = "units: SI\nbodies:\n", joints = "joints:\n";
   for (const auto& [body, file] : {std::pair("inboard", inboard), std::pair("outboard", outboard)}) {
     text +=

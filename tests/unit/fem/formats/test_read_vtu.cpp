@@ -8,6 +8,7 @@
 #include "fem/formats/read_mesh.hpp"
 #include "fem/formats/read_vtu.hpp"
 #include "fem/formats/vtu.hpp"
+#include "tests/support/oracle.hpp"
 #include "tests/unit/fem/formats/scratch.hpp"
 
 using namespace tenon;
@@ -112,7 +113,7 @@ TEST(ReadVtu, ReadsAppendedAndEncodedArraysOfEitherOrder) {
 /// with node numbers that tell the order.
 TEST(ReadVtu, ReadsWhatMeshioWrites) {
   const Scratch scratch;
-  if (std::system("/usr/bin/python3 -c 'import meshio' 2>/dev/null") != 0) GTEST_SKIP() << "python3-meshio is missing";
+  TENON_SKIP_WITHOUT(std::system("/usr/bin/python3 -c 'import meshio' 2>/dev/null") == 0, "python3-meshio");
   const auto script = scratch.write("make.py", R"(import sys, numpy as np, meshio
 types = dict(vertex=1, line=2, line3=3, triangle=3, triangle6=6, quad=4, quad8=8, quad9=9, tetra=4, tetra10=10,
     hexahedron=8, hexahedron20=20, hexahedron27=27, wedge=6, wedge18=18, pyramid=5)
