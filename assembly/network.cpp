@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <deque>
 
@@ -13,6 +14,7 @@ namespace tenon::assembly {
 namespace {
 
 constexpr double closing_tolerance = 1e-6;  // of the scene's size, and [rad]
+constexpr double coinciding = 1e-12;        // of a point's distance from the origin: what rounding leaves between two
 
 template <typename T>
 const T& at(const std::vector<T>& items, int k) {
@@ -89,14 +91,26 @@ void place_across(const Network& network, const Joint& joint, bool outward, Plac
   placement.origin[k] = f.p - placement.R[k] * port_of(network, to).position;
 }
 
+// root of the mean square distance of the mass from the reference
+double radius_of_gyration(const ReducedBody& body) {
+  const double mass = body.D(0, 0);
+  return mass > 0.0 ? std::sqrt(std::max(body.D.bottomRightCorner<3, 3>().trace(), 0.0) / (2.0 * mass)) : 0.0;
+}
+
+// The box of references and ports, or a body's radius of gyration where that is larger: ports may all coincide, and
+// their box is then what rounding leaves.
 double scene_size(const Network& network, const Placement& placement) {
   Eigen::AlignedBox3d box;
+  double gyration = 0.0;
   for (std::size_t k = 0; k < network.bodies.size(); ++k) {
     const auto add = [&](const Vec3& r) { box.extend(placement.origin[k] + placement.R[k] * r); };
     add(network.bodies[k].reference);
     for (const reduction::BodyPort& port : network.bodies[k].ports) add(port.position);
+    gyration = std::max(gyration, radius_of_gyration(network.bodies[k]));
   }
-  return box.isEmpty() ? 0.0 : box.diagonal().norm();
+  if (box.isEmpty()) return gyration;
+  const double far = std::max(box.min().norm(), box.max().norm()), diagonal = box.diagonal().norm();
+  return std::max(diagonal > coinciding * far ? diagonal : 0.0, gyration);
 }
 
 void check_closure(const Network& network, const Placement& placement, const Joint& joint) {

@@ -79,6 +79,28 @@ TEST(Placement, ClosesLoops) {
   EXPECT_EQ(p.closing_joints.size(), 1u);
 }
 
+// Two bodies free in space, joined where alone either has a port, off its origin: all ports are one point, whose box is
+// rounding. T = ½ I₁ θ₁² + ½ I₂ θ₂² + ½ μ |θ₁ r₁ − θ₂ r₂|² about the mass centres, V = ½ k (θ₁ − θ₂)².
+TEST(Placement, BodiesOfOnePortEachAreAsLargeAsTheirInertias) {
+  const Vec3 r1(-0.57, -0.17, 0.0), r2(-0.01, -0.37, 0.0);  // from the mass centres to the hinge
+  const double m1 = 9.0, I1 = 6.0, m2 = 2.0, I2 = 1.0, k = 100.0, mu = m1 * m2 / (m1 + m2);
+  const double a = I1 + mu * r1.squaredNorm(), b = I2 + mu * r2.squaredNorm(), c = -mu * r1.dot(r2);
+  for (const double far : {0.0, 1e3}) {
+    const Vec3 to_port(0.1 + far, 0.2, 0.3);
+    Network net;
+    net.bodies = {
+        reduction::rigid_body("one", m1, to_port - r1, I1 * Mat3::Identity(), {reference::port("p", to_port)}),
+        reduction::rigid_body("two", m2, Vec3(0.3, 0, 0) - r2, I2 * Mat3::Identity(),
+                              {reference::port("q", {0.3, 0, 0})})};
+    net.joints = {hinge("j", {0, 0}, {1, 0}, 0.0)};
+    net.joints[0].stiffness = k;
+    const SystemModes found = modes(second_order(net));
+    ASSERT_EQ(found.omega.size(), 7);
+    EXPECT_EQ(found.rigid, 6);
+    EXPECT_NEAR(found.omega[6], std::sqrt(k * (a + b + 2.0 * c) / (a * b - c * c)), 1e-9 * found.omega[6]);
+  }
+}
+
 TEST(Placement, OpenLoopIsRefusedWithItsGap) {
   const std::string what = message([] { place(parallelogram(0.01)); });
   EXPECT_THAT(what, HasSubstr("gap 0.01 m"));
