@@ -20,6 +20,7 @@
 #include "fem/error.hpp"
 #include "fem/loose_rotations.hpp"
 #include "fem/matrix_part.hpp"
+#include "fem/rigid_forces.hpp"
 #include "fem/shell_directors.hpp"
 #include "fem/sparsity.hpp"
 #include "fem/structure.hpp"
@@ -368,6 +369,7 @@ Structure assemble(const Model& model) {
   s.node_ids = model.node_ids;
   s.scalar_points = model.scalar_points;
   s.ports = model.ports;
+  s.rounding = rigid_rounding(model);
   drop_empty_rows(model, s);
   return s;
 }

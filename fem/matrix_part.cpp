@@ -128,6 +128,7 @@ std::shared_ptr<const MatrixPart> moved(const MatrixPart& part, const Mat3& R, i
     const SparseMatrix AQt = whole * Qt;
     return lower_of(Q * AQt);
   };
+  result->rounding = part.rounding;
   result->K = turned(part.K);
   result->M = turned(part.M);
   return result;

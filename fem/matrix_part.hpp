@@ -10,9 +10,10 @@ namespace tenon::fem {
 /// A part of a model that stands as matrices: K and M of another program over dofs of the model's nodes. Nodes of
 /// solids have translations only; modal coordinates are scalar points (direction 0).
 struct MatrixPart {
-  std::vector<Dof> dofs;  ///< the dof behind each row, none twice
-  SparseMatrix K;         ///< [N/m], n×n, symmetric, lower triangle
-  SparseMatrix M;         ///< [kg], n×n, symmetric, lower triangle
+  std::vector<Dof> dofs;   ///< the dof behind each row, none twice
+  SparseMatrix K;          ///< [N/m], n×n, symmetric, lower triangle
+  SparseMatrix M;          ///< [kg], n×n, symmetric, lower triangle
+  double rounding = 1e-9;  ///< what the digits of K leave where rigid motions cost no force (fem/rigid_forces.hpp)
 };
 
 /// Throws ModelError for parts whose matrices, rows and nodes do not fit each other, and for dofs that stand twice.

@@ -33,7 +33,6 @@ struct CheckLimits {
   double coincident = 1e-6;       ///< distance over the diagonal of the model's box
   double mass = 1e-9;             ///< relative; centre of mass over the box's diagonal
   double inertia = 1e-2;          ///< relative: lumped and consistent mass differ by O(h²)
-  double grounding = 1e-9;        ///< |Σ K_ij R_j| over Σ √(K_ii K_jj) |R_j| of a row
   double constraint = 1e-6;       ///< |Σ c R| over Σ |c R| of a linear constraint: its coefficients are often rounded
   double singular = 1e-8;         ///< least stiffness of a node's 3×3 block over the block's trace (Nastran's EPZERO)
   double warp = 0.05;             ///< distance of corners from the mean plane over the mean diagonal

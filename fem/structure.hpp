@@ -59,6 +59,7 @@ struct Structure {
   std::vector<long> node_ids;
   std::vector<int> scalar_points;  ///< nodes that are one scalar dof: they do not move with a rigid body
   std::vector<Port> ports;
+  double rounding = 1e-9;  ///< what stays below it counts as no force on a rigid motion (fem/rigid_forces.hpp)
 
   int n() const { return static_cast<int>(K.rows()); }
 };

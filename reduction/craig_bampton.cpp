@@ -62,10 +62,9 @@ void factor_interior(const fem::Structure& structure, const Partition& parts, Sh
   int row = ordered.factor.try_factorize(ordered.A);
   if (row < 0) row = free_row(ordered.A, ordered.factor);
   if (row >= 0) {
-    const auto dof = static_cast<std::size_t>(parts.interior[static_cast<std::size_t>(row)]);
+    const int dof = parts.interior[static_cast<std::size_t>(row)];
     throw ModelError(
-        fmt::format("{} can move without strain while all ports are held",
-                    dof < structure.dofs.names.size() ? structure.dofs.names[dof] : fmt::format("row {}", dof)),
+        fmt::format("{} can move without strain while all ports are held", row_name(structure)(dof)),
         "Look there for a hinge, a node without rotational stiffness, a part that hangs by a thread, or one so stiff "
         "that the rest is lost in its rounding");
   }
@@ -93,7 +92,11 @@ Subspace component_modes(const fem::Structure& structure, const Partition& parts
       K_CC = 0.5 * (K_CC + K_CC.transpose()).eval();
     }
     space.modes.shapes.resize(interior, 0);
-    if (modes) space.modes = solve_modes(factored.A, M_ii, factored, Eigen::MatrixXd(interior, 0), options, &count);
+    if (modes) {
+      ModesOptions inside = options;
+      inside.row_name = [&](int row) { return row_name(structure)(parts.interior[static_cast<std::size_t>(row)]); };
+      space.modes = solve_modes(factored.A, M_ii, factored, Eigen::MatrixXd(interior, 0), inside, &count);
+    }
     if (loads.F.cols() > 0)
       residual = residual_shapes([&](const Eigen::MatrixXd& F) { return factored.factor.solve(F); }, M_ii, space.modes,
                                  {rows_of(loads.F, parts.interior), loads.names});

@@ -1,5 +1,7 @@
 #include "reduction/dense_modes.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
@@ -8,6 +10,7 @@
 
 #include "fem/error.hpp"
 #include "reduction/dense.hpp"
+#include "reduction/shift.hpp"
 
 extern "C" void dpstrf_(const char* triangle, const int* n, double* a, const int* lda, int* pivots, int* rank,
                         const double* tolerance, double* work, int* info);
@@ -25,11 +28,14 @@ struct Spectrum {
   Eigen::MatrixXd X;   // columns x with xᵀ(K + sM)x = 1
 };
 
-Spectrum spectrum(const Eigen::MatrixXd& K, const Eigen::MatrixXd& M, double s, const Eigen::MatrixXd& rigid) {
+Spectrum spectrum(const Eigen::MatrixXd& K, const Eigen::MatrixXd& M, double s, const Eigen::MatrixXd& rigid,
+                  const RowName& row_name) {
   Eigen::MatrixXd L = K + s * M;
   if (const int pivot = cholesky_in_place(L); pivot >= 0)
-    throw NumericalError("K + sM is not positive definite: pivot", pivot,
-                         "The structure has a motion without stiffness and without mass");
+    throw NumericalError(
+        fmt::format("K + sM is not positive definite: the pivot of {} fails at the shift", name_of(row_name, pivot)), s,
+        "Something there can move with neither stiffness nor mass, or has a negative one: look for loose parts, nodes "
+        "that are linked to too few others, and wrong signs");
   Eigen::MatrixXd C = M;
   triangular_solve(L, C, false);
   C.transposeInPlace();
@@ -63,13 +69,13 @@ int mass_rank(const Eigen::MatrixXd& M) {
 }
 
 DensePairs dense_modes(const Eigen::MatrixXd& K, const Eigen::MatrixXd& M, double s, int count,
-                       const Eigen::MatrixXd& rigid) {
+                       const Eigen::MatrixXd& rigid, const RowName& row_name) {
   const auto finite = static_cast<Eigen::Index>(mass_rank(M)) - rigid.cols();
   const Eigen::Index wanted = count < 0 ? finite : std::min<Eigen::Index>(count, finite);
   DensePairs pairs{Eigen::VectorXd(wanted), Eigen::MatrixXd(K.rows(), wanted)};
   Eigen::Index done = 0;
   for (int pass = 0; done < wanted; ++pass) {
-    const Spectrum at = spectrum(K, M, s, rigid);
+    const Spectrum at = spectrum(K, M, s, rigid, row_name);
     for (; done < wanted && at.mu[done] > at.mu[0] / one_solve; ++done) {
       const double mu = at.mu[done];
       pairs.lambda[done] = 1.0 / mu - s;

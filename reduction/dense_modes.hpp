@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 
+#include "reduction/modes.hpp"
+
 namespace tenon::reduction {
 
 /// Finite eigenpairs of K φ = λ M φ, mass-normalised, ascending.
@@ -17,8 +19,8 @@ int mass_rank(const Eigen::MatrixXd& M);
 /// The lowest `count` finite modes (all when count < 0) of dense symmetric K, M ⪰ 0 with K + sM > 0, by the eigenvalues
 /// of L⁻¹ M L⁻ᵀ, K + sM = LLᵀ. Modes more than 1e7 above the first are taken from a second solve at their own shift,
 /// for one solve has only 16 digits for all of them. `rigid` (M-orthonormal, K R = 0) is kept out. Throws
-/// NumericalError when K + sM is not positive definite.
+/// NumericalError naming a row when K + sM is not positive definite.
 DensePairs dense_modes(const Eigen::MatrixXd& K, const Eigen::MatrixXd& M, double s, int count,
-                       const Eigen::MatrixXd& rigid);
+                       const Eigen::MatrixXd& rigid, const RowName& row_name = {});
 
 }  // namespace tenon::reduction

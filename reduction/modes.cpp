@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "fem/error.hpp"
+#include "fem/rigid_forces.hpp"
 #include "reduction/count.hpp"
 #include "reduction/dense.hpp"
 #include "reduction/dense_modes.hpp"
@@ -45,6 +46,11 @@ struct Problem {
   Inertia below(double sigma, bool estimate_nearest = false) const {
     return count.below(K, M, sigma, estimate_nearest);
   }
+  // Unit of rounding of K's own numbers: a program's or, in files of fewer digits, what they leave where rigid motions
+  // cost no force.
+  double unit() const {
+    return std::max(std::numeric_limits<double>::epsilon(), fem::rigid_forces(K, rigid).worst().ratio);
+  }
   void progress(double fraction, const char* step) const {
     if (options.progress) options.progress(fraction, step);
   }
@@ -72,7 +78,7 @@ std::pair<double, int> count_of_band(const Problem& p, double band) {
 Flexible solve_dense(const Problem& p, int wanted, std::optional<double> sigma, bool all) {
   const Eigen::MatrixXd K = dense_matrix(p.K), M = dense_matrix(p.M);
   const int margin = 10;  // company of the last mode, to see the gap above it
-  const DensePairs pairs = dense_modes(K, M, p.at.s, all || sigma ? -1 : wanted + margin, p.rigid);
+  const DensePairs pairs = dense_modes(K, M, p.at.s, all || sigma ? -1 : wanted + margin, p.rigid, p.options.row_name);
   RitzValues ritz;
   ritz.theta = (pairs.lambda.array() + p.at.s).inverse();
   ritz.residual = Eigen::VectorXd::Zero(ritz.theta.size());
@@ -180,23 +186,17 @@ int settle_low_modes(const Problem& p, Flexible& f) {
       first = std::min(first, f.lambda[k]);
       continue;
     }
-    if (std::abs(f.lambda[k]) > 1e5 * lambda_noise(p.K, f.X.col(k), 1.0)) continue;  // soft, yet resolved by K
+    if (std::abs(f.lambda[k]) > zero_noise * lambda_noise(p.K, f.X.col(k), 1.0)) continue;  // soft, yet resolved by K
     f.lambda[k] = 0.0;
     ++zero;
   }
   return zero;
 }
 
-// Unit of rounding of K's own numbers: a program's or, in files of fewer digits, what they leave where rigid motions
-// cost no force. At most 1e-12: a K that is further from its rigid motions is not rounded, but different.
-double rounding(const fem::SparseMatrix& K, const Eigen::MatrixXd& rigid) {
-  double unit = std::numeric_limits<double>::epsilon();
-  for (Eigen::Index k = 0; k < rigid.cols(); ++k) {
-    const Eigen::VectorXd force = symmetric_product(K, rigid.col(k)).col(0).cwiseAbs();
-    const Eigen::VectorXd terms = absolute_product(K, rigid.col(k)).col(0);
-    unit = std::max(unit, force.cwiseQuotient(terms.cwiseMax(std::numeric_limits<double>::min())).maxCoeff());
-  }
-  return std::min(unit, 1e-12);
+void require_no_negative(const Problem& p, const Flexible& f) {
+  Eigen::Index least = 0;
+  if (f.lambda.size() > 0 && f.lambda.minCoeff(&least) < 0.0)
+    refuse_negative(p.options.row_name, f.X.col(least), f.lambda[least]);
 }
 
 double residual(const Problem& p, const Eigen::MatrixXd& X, const Eigen::MatrixXd& MX, const Eigen::VectorXd& lambda) {
@@ -215,7 +215,7 @@ double residual(const Problem& p, const Eigen::MatrixXd& X, const Eigen::MatrixX
   worst += rigid;
   if (most <= p.options.residual_limit) return all;
   // what the rounding of K x and of K itself leaves: its size with the signs of a fixed sequence
-  Eigen::MatrixXd noise = rounding(p.K, p.rigid) * absolute_product(p.K, X.col(worst));
+  Eigen::MatrixXd noise = p.unit() * absolute_product(p.K, X.col(worst));
   for (Eigen::Index i = 0; i < noise.rows(); ++i)
     if (std::sin(2.399963229728653 * static_cast<double>(i * i % 1000003)) < 0.0) noise(i, 0) = -noise(i, 0);
   if (most <= 10.0 * p.at.factor.half_solve(noise).norm() / scale[worst]) return all;
@@ -251,6 +251,7 @@ Modes checked_modes(const Problem& p, Flexible& f, int returned) {
   // L⁻¹ magnifies rounding along the softest motions: take what is left of the rigid ones out, X ← (1 − RRᵀM) X
   if (r > 0) f.X -= p.rigid * transposed_product(p.rigid, symmetric_product(p.M, f.X));
   const int zero = settle_low_modes(p, f);
+  require_no_negative(p, f);
   const auto flexible = static_cast<int>(f.lambda.size());
   const int kept_rigid = std::min(r, returned);
   const int kept = std::clamp(returned - r, 0, f.cut.modes);
@@ -274,6 +275,9 @@ Modes checked_modes(const Problem& p, Flexible& f, int returned) {
   if (modes.max_orthogonality > 1e-6)
     throw NumericalError("the modes are not orthonormal with respect to the mass matrix", modes.max_orthogonality,
                          "Raise the count so that the last mode is not cut out of a cluster");
+  const fem::RigidForces::Worst rigid = fem::rigid_forces(p.K, p.rigid).worst();
+  modes.rigid_force = rigid.ratio;
+  modes.rigid_force_row = static_cast<int>(rigid.row);
   fix_signs(modes.shapes);
   return modes;
 }
@@ -324,12 +328,12 @@ Modes solve_modes(const fem::SparseMatrix& K, const fem::SparseMatrix& M, const 
 }
 
 Modes solve_modes(const fem::SparseMatrix& K, const fem::SparseMatrix& M, const Eigen::MatrixXd& rigid,
-                  const ModesOptions& options, const std::vector<std::string>& names) {
+                  const ModesOptions& options) {
   require_sizes(K, M, rigid);
   if (options.progress) options.progress(0.0, "factorisation");
-  const Eigen::MatrixXd moving = null_motions(K, M, rigid);
+  const Eigen::MatrixXd moving = null_motions(K, M, rigid, options.rounding);
   Count count;
-  const ShiftedFactor at = choose_shift(K, M, moving, names, [&](const Factor& ordered) {
+  const ShiftedFactor at = choose_shift(K, M, moving, options.row_name, [&](const Factor& ordered) {
     if (options.certify || options.band) count.prepare(K, M, ordered);
   });
   return solve_modes(K, M, at, moving, options, &count);

@@ -13,6 +13,9 @@ namespace tenon::reduction {
 /// Called with a fraction 0..1 and the name of the step; may be empty.
 using Progress = std::function<void(double, const char*)>;
 
+/// The name of a row of K for messages, "node 45 rz"; may be empty: then its number serves.
+using RowName = std::function<std::string(int)>;
+
 /// Who finds the eigenpairs of the shift-invert operator; everything else (shift, checks, count) is the same.
 enum class EigenSolver {
   block_lanczos,  ///< our own: finds repeated eigenvalues, solves in blocks
@@ -29,7 +32,9 @@ struct ModesOptions {
   double residual_limit = 1e-6;
   int block = 0;  ///< Lanczos block size; 0: chosen
   EigenSolver solver = EigenSolver::block_lanczos;
-  int dense_below = 600;  ///< problems of at most this size are solved dense
+  int dense_below = 600;   ///< problems of at most this size are solved dense
+  double rounding = 1e-9;  ///< of K r for rigid r, row by row (Structure::rounding, which a Structure brings along)
+  RowName row_name = {};
   Progress progress = {};
 };
 
@@ -43,6 +48,10 @@ struct Modes {
   double count_shift = 0.0;  ///< σ of the count [rad²/s²]
   double next_lambda =
       0.0;  ///< estimate of the first eigenvalue not returned (0: there is none, all finite ones are here)
+  /// What K leaves of forces on the rigid motions, of what cancels in a row, and the row: above 1e-12 its numbers have
+  /// few digits, or something ties the body softly to the ground.
+  double rigid_force = 0.0;
+  int rigid_force_row = -1;
   double max_residual = 0.0;       ///< as in ModesOptions::residual_limit
   double max_orthogonality = 0.0;  ///< largest entry of |ΦᵀMΦ − 1|
 };
@@ -51,9 +60,12 @@ struct Modes {
 /// motions. `rigid`: n×r basis of expected rigid-body motions (may be empty, may contain columns outside null(K), which
 /// are dropped). Works on M x = μ (K + |s|M) x, so it never factors an indefinite or singular matrix; each solve is
 /// checked and the number of modes below the upper end is counted by inertia (NUMERICS 4d). Throws NumericalError
-/// naming both counts when they disagree. `names` of the dofs, for messages; may be empty.
+/// naming both counts when they disagree, and naming a row when K or M is not positive semi-definite.
 Modes solve_modes(const fem::SparseMatrix& K, const fem::SparseMatrix& M, const Eigen::MatrixXd& rigid,
-                  const ModesOptions& options = {}, const std::vector<std::string>& names = {});
+                  const ModesOptions& options = {});
+
+/// Names of a structure's rows; refers to it.
+RowName row_name(const fem::Structure& structure);
 
 /// The same for a Structure, rigid motions taken about its nodes' centroid.
 Modes solve_modes(const fem::Structure& structure, const ModesOptions& options = {});

@@ -154,30 +154,30 @@ TENON_INLINE void symmetric_of(std::int64_t n, const int* start, const int* row,
 }
 
 // the six loops for one instruction set
-#define TENON_PANEL_KERNELS(NAME, TARGET, V, J)                                                                       \
-  struct NAME {                                                                                                       \
-    TARGET static void lower(const double* L, std::int64_t height, std::int64_t columns, double* y) {                 \
-      lower_all<V, J>(L, height, columns, y);                                                                         \
-    }                                                                                                                 \
-    TARGET static void upper(const double* L, std::int64_t height, std::int64_t columns, double* y) {                 \
-      upper_all<V, J>(L, height, columns, y);                                                                         \
-    }                                                                                                                 \
-    TARGET static void pull(const double* A, std::int64_t lda, std::int64_t rows, std::int64_t columns,               \
-                            const double* W, double* H) {                                                             \
-      pull_all<V, J>(A, lda, rows, columns, W, H);                                                                    \
-    }                                                                                                                 \
-    TARGET static void push(const double* A, std::int64_t lda, std::int64_t rows, std::int64_t columns,               \
-                            const double* H, double* W) {                                                             \
-      push_all<V, J>(A, lda, rows, columns, H, W);                                                                    \
-    }                                                                                                                 \
-    TARGET static void rows(const int* start, const int* column, const double* value, std::int64_t begin,             \
-                            std::int64_t end, const double* X, double* Y) {                                           \
-      rows_of<V>(start, column, value, begin, end, X, Y);                                                             \
-    }                                                                                                                 \
-    TARGET static void symmetric(std::int64_t n, const int* start, const int* row, const double* value,               \
-                                 const double* X, double* Y) {                                                        \
-      symmetric_of<V>(n, start, row, value, X, Y);                                                                    \
-    }                                                                                                                 \
+#define TENON_PANEL_KERNELS(NAME, TARGET, V, J)                                                           \
+  struct NAME {                                                                                           \
+    TARGET static void lower(const double* L, std::int64_t height, std::int64_t columns, double* y) {     \
+      lower_all<V, J>(L, height, columns, y);                                                             \
+    }                                                                                                     \
+    TARGET static void upper(const double* L, std::int64_t height, std::int64_t columns, double* y) {     \
+      upper_all<V, J>(L, height, columns, y);                                                             \
+    }                                                                                                     \
+    TARGET static void pull(const double* A, std::int64_t lda, std::int64_t rows, std::int64_t columns,   \
+                            const double* W, double* H) {                                                 \
+      pull_all<V, J>(A, lda, rows, columns, W, H);                                                        \
+    }                                                                                                     \
+    TARGET static void push(const double* A, std::int64_t lda, std::int64_t rows, std::int64_t columns,   \
+                            const double* H, double* W) {                                                 \
+      push_all<V, J>(A, lda, rows, columns, H, W);                                                        \
+    }                                                                                                     \
+    TARGET static void rows(const int* start, const int* column, const double* value, std::int64_t begin, \
+                            std::int64_t end, const double* X, double* Y) {                               \
+      rows_of<V>(start, column, value, begin, end, X, Y);                                                 \
+    }                                                                                                     \
+    TARGET static void symmetric(std::int64_t n, const int* start, const int* row, const double* value,   \
+                                 const double* X, double* Y) {                                            \
+      symmetric_of<V>(n, start, row, value, X, Y);                                                        \
+    }                                                                                                     \
   }
 
 TENON_PANEL_KERNELS(Plain, , Vector2, 2);

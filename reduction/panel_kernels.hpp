@@ -4,8 +4,8 @@
 
 namespace tenon::reduction {
 
-/// Inner loops on panels (rows of eight doubles, one for each of eight right-hand sides), for the instruction set of the
-/// processor at hand.
+/// Inner loops on panels (rows of eight doubles, one for each of eight right-hand sides), for the instruction set of
+/// the processor at hand.
 struct PanelKernels {
   /// One supernode of L, height×columns, column-major, its leading block lower triangular; y: height rows.
   /// y_head ← L₁₁⁻¹ y_head; y_tail ← y_tail − L₂₁ y_head.

@@ -8,19 +8,18 @@
 
 #include "fem/error.hpp"
 #include "fem/mesh.hpp"
+#include "fem/rigid_forces.hpp"
+#include "reduction/modes.hpp"
 #include "reduction/sparse.hpp"
 
 namespace tenon::reduction {
 
 namespace {
 
-constexpr double held_to_ground = 1e-8;  // of |K||r|, row by row; rounding leaves 1e-10 and less
-
 std::string some_names(const fem::Structure& structure, const std::vector<int>& rows) {
   std::vector<std::string> names;
   for (std::size_t k = 0; k < std::min<std::size_t>(rows.size(), 5); ++k) {
-    const auto row = static_cast<std::size_t>(rows[k]);
-    names.push_back(row < structure.dofs.names.size() ? structure.dofs.names[row] : fmt::format("row {}", row));
+    names.push_back(row_name(structure)(rows[k]));
   }
   return fmt::format("{}{}", fmt::join(names, ", "), rows.size() > 5 ? ", ..." : "");
 }
@@ -103,18 +102,12 @@ void require_stiffness_path(const fem::Structure& structure, const Partition& pa
       "Join this part to the rest (merge coincident nodes, add a rigid link), or take it out of the body");
 }
 
-void require_free_body(const fem::Structure& structure, const Eigen::MatrixXd& R) {
+double require_free_body(const fem::Structure& structure, const Eigen::MatrixXd& R) {
+  const fem::RigidForces forces = fem::rigid_forces(structure.K, R);
   std::vector<int> rows;
-  const fem::SparseMatrix size = structure.K.cwiseAbs();
-  const Eigen::MatrixXd force = symmetric_product(structure.K, R), scale = symmetric_product(size, R.cwiseAbs());
-  for (Eigen::Index c = 0; c < R.cols(); ++c) {
-    const double floor = held_to_ground * 1e-6 * scale.col(c).maxCoeff();
-    for (Eigen::Index i = 0; i < force.rows(); ++i)
-      if (std::abs(force(i, c)) > held_to_ground * scale(i, c) + floor) rows.push_back(static_cast<int>(i));
-  }
-  std::sort(rows.begin(), rows.end());
-  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
-  if (rows.empty()) return;
+  for (Eigen::Index i = 0; i < forces.force.rows(); ++i)
+    if (!(forces.ratio(i) <= structure.rounding)) rows.push_back(static_cast<int>(i));
+  if (rows.empty()) return forces.worst().ratio;
   throw ModelError(
       fmt::format("the structure resists a rigid motion at {}: it is held to the ground", some_names(structure, rows)),
       "A body that is to be joined must be free: remove its supports and springs to ground, and ground a "

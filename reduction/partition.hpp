@@ -28,6 +28,7 @@ Partition partition(const fem::Structure& structure, const std::string& parent, 
 void require_stiffness_path(const fem::Structure& structure, const Partition& parts);
 
 /// Throws ModelError naming dofs when the structure resists a rigid motion (columns of R): it is held to the ground.
-void require_free_body(const fem::Structure& structure, const Eigen::MatrixXd& R);
+/// @returns what rounding leaves of forces, of what cancels in the worst row
+double require_free_body(const fem::Structure& structure, const Eigen::MatrixXd& R);
 
 }  // namespace tenon::reduction

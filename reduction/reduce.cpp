@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "fem/error.hpp"
+#include "fem/rigid_forces.hpp"
 #include "reduction/dense.hpp"
 #include "reduction/eq1.hpp"
 #include "reduction/partition.hpp"
@@ -107,7 +108,7 @@ ReducedBody reduce(const fem::Structure& structure, const std::string& parent, c
   const fem::Port& hung = structure.ports[static_cast<std::size_t>(parts.parent)];
   const Vec3 reference = structure.nodes[static_cast<std::size_t>(hung.node)];
   const Eigen::MatrixXd R = fem::rigid_motions(structure, reference);
-  require_free_body(structure, R);
+  const double rigid_force = require_free_body(structure, R);
 
   progress(0.1, "component modes");
   const int count = options.all_modes ? static_cast<int>(parts.interior.size()) : options.modes;
@@ -159,6 +160,11 @@ ReducedBody reduce(const fem::Structure& structure, const std::string& parent, c
   c.max_orthogonality = space.modes.max_orthogonality;
   c.valid_below = std::sqrt(std::max(space.modes.next_lambda, 0.0));
   c.left_out = sentences(structure, parts, space, modal, basis);
+  if (rigid_force > fem::rigid_limit::unsaid)
+    c.left_out.push_back(
+        fmt::format("forces of K on rigid motions, {:.1e} of what cancels in them: taken as the "
+                    "rounding of its numbers, so a tie to the ground that soft is not seen",
+                    rigid_force));
   check(body);
   progress(1.0, "reduced");
   return body;

@@ -10,7 +10,7 @@ namespace {
 // Free-free modes need the mass of every rigid motion; a straight bar without torsional inertia has none about its
 // axis.
 Eigen::MatrixXd rigid_modes(const fem::Structure& structure, const Eigen::MatrixXd& R) try {
-  return null_motions(structure.K, structure.M, R);
+  return null_motions(structure.K, structure.M, R, structure.rounding);
 } catch (const ModelError&) {
   throw ModelError("a rigid motion of the body carries no mass, and the basis 'rubin' takes free-free modes",
                    "Take craig-bampton-inertia-relief or craig-bampton, which hold the parent port, or give it mass "
@@ -31,9 +31,10 @@ Subspace free_modes(const fem::Structure& structure, const Partition& parts, con
   if (options.count > 0 || options.band) {
     ModesOptions wanted = options;
     wanted.count += modes.rigid;
+    wanted.row_name = row_name(structure);
     Count count;
     const ShiftedFactor free =
-        choose_shift(structure.K, structure.M, rigid, structure.dofs.names, [&](const Factor& ordered) {
+        choose_shift(structure.K, structure.M, rigid, row_name(structure), [&](const Factor& ordered) {
           if (options.certify || options.band) count.prepare(structure.K, structure.M, ordered);
         });
     modes = solve_modes(structure.K, structure.M, free, rigid, wanted, &count);

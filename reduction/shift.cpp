@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "fem/error.hpp"
+#include "fem/rigid_forces.hpp"
 #include "reduction/block_lanczos.hpp"
 #include "reduction/shift_invert.hpp"
 #include "reduction/sparse.hpp"
@@ -19,13 +20,7 @@ namespace tenon::reduction {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr double rigid_limit = 1e-9;  // of |K||r|, row by row: FE matrices leave 1e-10 and less
 constexpr double near_enough = 30.0;  // s may exceed the first flexible eigenvalue by this
-
-std::string dof_name(const std::vector<std::string>& names, int row) {
-  const auto r = static_cast<std::size_t>(row);
-  return r < names.size() ? names[r] : fmt::format("row {}", row);
-}
 
 // least K_ii / M_ii > 0: a Rayleigh quotient, so never below the lowest eigenvalue
 double least_diagonal_ratio(const fem::SparseMatrix& K, const fem::SparseMatrix& M) {
@@ -38,8 +33,10 @@ double least_diagonal_ratio(const fem::SparseMatrix& K, const fem::SparseMatrix&
 
 }  // namespace
 
-Eigen::MatrixXd null_motions(const fem::SparseMatrix& K, const fem::SparseMatrix& M,
-                             const Eigen::MatrixXd& candidates) {
+std::string name_of(const RowName& row_name, int row) { return row_name ? row_name(row) : fmt::format("row {}", row); }
+
+Eigen::MatrixXd null_motions(const fem::SparseMatrix& K, const fem::SparseMatrix& M, const Eigen::MatrixXd& candidates,
+                             double rounding) {
   const Eigen::Index n = K.rows();
   if (candidates.cols() == 0 || n == 0) return Eigen::MatrixXd(n, 0);
   // candidates in the norm of diag(K): singular vectors of D^{-1/2} K R, smallest values first, are tested one by one
@@ -57,18 +54,13 @@ Eigen::MatrixXd null_motions(const fem::SparseMatrix& K, const fem::SparseMatrix
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(small, Eigen::ComputeFullV);
   Eigen::MatrixXd found(n, 0);
   const Eigen::MatrixXd X = basis * svd.matrixV();
-  const Eigen::MatrixXd forces = symmetric_product(K, X);
-  const Eigen::VectorXd row_sums = absolute_product(K, Eigen::VectorXd::Ones(n));
+  const fem::RigidForces forces = fem::rigid_forces(K, X);
   for (Eigen::Index k = r - 1; k >= 0; --k) {
-    const Eigen::VectorXd x = X.col(k), force = forces.col(k);
-    // |K||x| ≤ |K|1 max|x|: what fails against that fails below
-    const double most = x.lpNorm<Eigen::Infinity>(), ceiling = epsilon * row_sums.maxCoeff() * most;
-    if ((force.cwiseAbs().array() > 1.001 * (rigid_limit * most * row_sums.array() + ceiling)).any()) continue;
-    const Eigen::VectorXd scale = absolute_product(K, x);
-    const double floor = epsilon * scale.maxCoeff();
-    if (((force.cwiseAbs().array() > rigid_limit * scale.array() + floor)).any()) continue;
+    bool resisted = false;
+    for (Eigen::Index i = 0; i < n && !resisted; ++i) resisted = !(forces.ratio(i, k) <= rounding);
+    if (resisted) continue;
     found.conservativeResize(Eigen::NoChange, found.cols() + 1);
-    found.rightCols(1) = x;
+    found.rightCols(1) = X.col(k);
   }
   for (int pass = 0; pass < 2 && found.cols() > 0; ++pass) {  // M-orthonormal: R ← R (RᵀMR)^{-1/2}
     const Eigen::VectorXd scale = found.colwise().norm().cwiseInverse();
@@ -88,6 +80,18 @@ double lambda_noise(const fem::SparseMatrix& K, const Eigen::VectorXd& x, double
   // where x should lie in empty rows of K, what of it rounding has put into the others is all that terms has
   const double strays = epsilon * x.cwiseAbs2().maxCoeff() * K.diagonal().cwiseAbs().maxCoeff();
   return epsilon * std::max(terms, strays) / modal_mass;
+}
+
+void refuse_negative(const RowName& row_name, const Eigen::VectorXd& x, double lambda) {
+  Eigen::Index row = 0;
+  x.cwiseAbs().maxCoeff(&row);
+  throw NumericalError(
+      fmt::format("K is not positive semi-definite: for a motion x, of {} most, xᵀKx / xᵀMx [rad²/s²] is negative",
+                  name_of(row_name, static_cast<int>(row))),
+      lambda,
+      "Look for negative springs and wrong signs, a K that is not the stiffness, a preload beyond buckling, or parts "
+      "so "
+      "stiff that the rest is lost in their rounding");
 }
 
 int free_row(const fem::SparseMatrix& K, const Factor& factor) {
@@ -116,7 +120,7 @@ namespace {
 
 // first eigenvalue that is not zero, from above, by four block steps at the shift at hand
 double first_flexible(const fem::SparseMatrix& K, const fem::SparseMatrix& M, const Eigen::MatrixXd& rigid,
-                      const ShiftedFactor& at) {
+                      const RowName& row_name, const ShiftedFactor& at) {
   const ShiftInvert op(at.factor, M);
   const Eigen::MatrixXd locked = locked_motions(at.factor, M, rigid);
   const LanczosOptions options{.wanted = 8, .block = 8, .max_steps = 4};
@@ -129,6 +133,7 @@ double first_flexible(const fem::SparseMatrix& K, const fem::SparseMatrix& M, co
     const double mass = x.dot(Mx);
     if (!(run.ritz.theta[j] > 1e-12 * run.ritz.theta[0])) continue;  // infinite modes
     const double lambda = x.dot(Kx) / mass;
+    if (lambda < -zero_noise * lambda_noise(K, x, mass)) refuse_negative(row_name, x, lambda);
     // A motion without stiffness shows what has not left it yet, λ = Σ c² λ_k. Its residual, squared, in the norm of
     // A⁻¹ and over |x|²_A, says the same: s Σ c² λ_k² / (λ_k + s) / s.
     const double left = at.factor.half_solve(Kx - lambda * Mx).squaredNorm() / (mass * (lambda + at.s)) * at.s;
@@ -140,7 +145,7 @@ double first_flexible(const fem::SparseMatrix& K, const fem::SparseMatrix& M, co
 }  // namespace
 
 ShiftedFactor choose_shift(const fem::SparseMatrix& K, const fem::SparseMatrix& M, const Eigen::MatrixXd& rigid,
-                           const std::vector<std::string>& names, const std::function<void(const Factor&)>& ordered) {
+                           const RowName& row_name, const std::function<void(const Factor&)>& ordered) {
   fem::SparseMatrix A = shifted(K, M, 0.0);
   ShiftedFactor at{0.0, A, Factor(A)};
   if (ordered) ordered(at.factor);
@@ -149,22 +154,24 @@ ShiftedFactor choose_shift(const fem::SparseMatrix& K, const fem::SparseMatrix& 
   const double ratio = least_diagonal_ratio(K, M);
   const double start = std::isfinite(ratio) ? 1e-3 * ratio : 1.0;
   at.s = start;
+  double too_small = 0.0;  // the largest shift s that failed: K or its rounding has λ < −s
   int row = -1;
   for (int attempt = 0; attempt < 8; ++attempt) {
     at.A = shifted(K, M, at.s);
     row = at.factor.try_factorize(at.A);
     if (row >= 0) {
+      too_small = std::max(too_small, at.s);
       at.s *= 100.0;
       continue;
     }
-    const double flexible = first_flexible(K, M, rigid, at);
-    if (!std::isfinite(flexible) || at.s <= near_enough * flexible) return at;
+    const double flexible = first_flexible(K, M, rigid, row_name, at);
+    if (!std::isfinite(flexible) || at.s <= near_enough * flexible || flexible <= too_small) return at;
     at.s = flexible;
   }
   if (row < 0) return at;
   throw NumericalError(
       fmt::format("K + sM is not positive definite for any shift s tried: the pivot of {} fails, the last shift is",
-                  dof_name(names, row)),
+                  name_of(row_name, row)),
       at.s, "Something there has neither stiffness nor mass, or a negative one: look for loose parts and wrong signs");
 }
 

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "reduction/modes.hpp"
@@ -18,13 +20,22 @@ Eigen::MatrixXd translations(const fem::Structure& structure) {
 
 }  // namespace
 
+RowName row_name(const fem::Structure& structure) {
+  return [&names = structure.dofs.names](int row) {
+    const auto r = static_cast<std::size_t>(row);
+    return r < names.size() ? names[r] : fmt::format("row {}", row);
+  };
+}
+
 Modes solve_modes(const fem::Structure& structure, const ModesOptions& options) {
   const bool placed = std::ranges::all_of(structure.nodes, [](const fem::Vec3& x) { return x.allFinite(); });
   fem::Vec3 centroid = fem::Vec3::Zero();
   for (const fem::Vec3& x : structure.nodes) centroid += x / static_cast<double>(structure.nodes.size());
+  ModesOptions own = options;
+  own.rounding = structure.rounding;
+  own.row_name = row_name(structure);
   return solve_modes(structure.K, structure.M,
-                     placed ? fem::rigid_motions(structure, centroid) : translations(structure), options,
-                     structure.dofs.names);
+                     placed ? fem::rigid_motions(structure, centroid) : translations(structure), own);
 }
 
 }  // namespace tenon::reduction

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "fem/checks/cells.hpp"
+#include "fem/rigid_forces.hpp"
 #include "fem/singular_directions.hpp"
 
 namespace tenon::fem {
@@ -78,42 +79,25 @@ void check_mass(const Model& model, const Structure& s, const CheckLimits& limit
   check_mass_by_direction(s, limits, findings);
 }
 
-/// Row by row: F_i = Σ K_ij R_j is what holds dof i during a rigid motion; round-off leaves ε Σ √(K_ii K_jj) |R_j|, the
-/// bound of the terms of a positive matrix.
 void check_grounding(const Structure& s, const CheckLimits& limits, std::vector<Finding>& findings) {
-  const Eigen::MatrixXd R = rigid_motions(s, centre_of(s));
-  const Eigen::VectorXd root = s.K.diagonal().cwiseAbs().cwiseSqrt();
-  Eigen::MatrixXd F = Eigen::MatrixXd::Zero(s.n(), 6), size = F;
-  for (int j = 0; j < s.K.outerSize(); ++j)
-    for (SparseMatrix::InnerIterator it(s.K, j); it; ++it) {
-      const Eigen::Index i = it.row();
-      F.row(i) += it.value() * R.row(j);
-      size.row(i) += root(i) * root(j) * R.row(j).cwiseAbs();
-      if (i == j) continue;
-      F.row(j) += it.value() * R.row(i);
-      size.row(j) += root(i) * root(j) * R.row(i).cwiseAbs();
-    }
+  const RigidForces rigid = rigid_forces(s.K, rigid_motions(s, centre_of(s)));
   Places places;
   double worst = 0.0;
-  for (Eigen::Index i = 0; i < F.rows(); ++i) {
-    double ratio = 0.0;
-    Eigen::Index motion = 0;
-    for (Eigen::Index j = 0; j < 6; ++j)
-      if (size(i, j) != 0.0 && !(std::abs(F(i, j)) / size(i, j) <= ratio) && !std::isnan(ratio)) {
-        ratio = std::abs(F(i, j)) / size(i, j);
-        motion = j;
-      }
+  for (Eigen::Index i = 0; i < rigid.force.rows(); ++i) {
+    const double ratio = rigid.ratio(i);
     worst = std::max(worst, ratio);
-    if (!(ratio <= limits.grounding))
-      places.add(ratio, fmt::format("{} ({:.3g} per unit {})", s.dofs.names[static_cast<std::size_t>(i)], F(i, motion),
-                                    motion_names[static_cast<std::size_t>(motion)]));
+    if (ratio <= s.rounding) continue;
+    Eigen::Index motion = 0;
+    while (motion < 5 && rigid.ratio(i, motion) < ratio) ++motion;
+    places.add(ratio, fmt::format("{} ({:.3g} per unit {})", s.dofs.names[static_cast<std::size_t>(i)],
+                                  rigid.force(i, motion), motion_names[static_cast<std::size_t>(motion)]));
   }
   if (places.empty()) {
     findings.push_back(
         {.check = "grounding",
          .what = fmt::format("rigid motions cost no force: |K R| / |K| |R| = {:.1e} in the worst row", worst),
          .value = worst,
-         .limit = limits.grounding,
+         .limit = s.rounding,
          .cure = ""});
     return;
   }
@@ -123,7 +107,7 @@ void check_grounding(const Structure& s, const CheckLimits& limits, std::vector<
        .check = "grounding",
        .what = "dofs that a rigid motion loads: something ties the model to the ground",
        .value = worst,
-       .limit = limits.grounding,
+       .limit = s.rounding,
        .cure = "Look for springs to ground, springs between nodes apart from each other, and constraints that "
                "no rigid motion satisfies"},
       limits.listed);

@@ -7,6 +7,7 @@
 
 #include "fem/error.hpp"
 #include "fem/model_check.hpp"
+#include "fem/rigid_forces.hpp"
 #include "fem/singular_directions.hpp"
 #include "interfaces/cli/commands.hpp"
 #include "interfaces/cli/input.hpp"
@@ -31,6 +32,7 @@ Json modes_json(const ModesOptions& options, const fem::Structure& structure, co
     if (shows(options, omega_of(lambda))) object["frequencies_hz"].push_back(hertz(omega_of(lambda)));
   object["max_residual"] = modes.max_residual;
   object["max_orthogonality"] = modes.max_orthogonality;
+  object["rigid_force"] = modes.rigid_force;
   object["counted"] = modes.counted;
   object["counted_below_hz"] = hertz(omega_of(modes.count_shift));
   object["held_without_stiffness"] = remarks.held;
@@ -50,6 +52,12 @@ void print_modes(const ModesOptions& options, const fem::Structure& structure, c
                     modes.counted < 0 ? "not certified"
                                       : fmt::format("inertia count below {:.6g} Hz: {}",
                                                     hertz(omega_of(modes.count_shift)), modes.counted)));
+  if (modes.rigid > 0 && modes.rigid_force > fem::rigid_limit::unsaid)
+    print(
+        wrapped(fmt::format("K resists the rigid motions by {:.1e} of what cancels in a row, most at {}: taken as the "
+                            "rounding of its numbers, so a tie to the ground that soft is not seen",
+                            modes.rigid_force, structure.dofs.names[static_cast<std::size_t>(modes.rigid_force_row)]),
+                2));
   if (!remarks.held.empty()) {
     constexpr std::size_t listed = 5;
     const std::size_t n = std::min(listed, remarks.held.size());

@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "fem/error.hpp"
+#include "fem/formats/matrices/digits.hpp"
 #include "fem/matrix_part.hpp"
 
 namespace tenon::fem {
@@ -70,6 +71,7 @@ MatrixModel make_model(MatrixData data) {
   require_consistent_parts(model);
   require_sound(model, *part, part->K, "K");
   require_sound(model, *part, part->M, "M");
+  part->rounding = rounding_of(model, *part);
 
   result.mesh.source = data.source;
   result.mesh.format = "matrices";

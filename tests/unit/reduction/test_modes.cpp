@@ -1,22 +1,28 @@
+#include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
 #include <atomic>
+#include <cmath>
 #include <thread>
 
 #include "fem/error.hpp"
 #include "reduction/block_lanczos.hpp"
 #include "reduction/dense.hpp"
+#include "reduction/dense_modes.hpp"
 #include "reduction/eigenpairs.hpp"
 #include "reduction/inertia.hpp"
 #include "reduction/modes.hpp"
 #include "reduction/shift.hpp"
 #include "reduction/sparse.hpp"
+#include "tests/refusal.hpp"
 #include "tests/unit/reduction/structures.hpp"
 
 using namespace tenon;
 using namespace tenon::reduction;
 using namespace tenon::tests;
+using ::testing::HasSubstr;
 
 namespace {
 
@@ -209,6 +215,36 @@ TEST(Modes, AnArmThatNothingTurnsTakesMassAway) {
   const Modes modes = solve_modes(p.K, p.M, none, {.count = 2});
   EXPECT_EQ(modes.rigid, 1);
   EXPECT_NEAR(modes.lambda[1], 1000.0 / (2.0 * 0.01 / 0.03), 1e-8);
+}
+
+// Two chains joined by a spring of −c to the ground: a mode that decays by e^−κ a mass to both sides, 2 cosh κ = √(4 +
+// c²) and λ = 2 − √(4 + c²) of a long chain.
+TEST(Modes, ANegativeSpringIsRefusedByName) {
+  constexpr int n = 201, middle = 100;
+  Pencil p = uniform_chain(n, 1.0, 1.0, true, true);
+  p.K.coeffRef(middle, middle) -= 1.0;
+  for (const int dense_below : {0, 600}) {
+    ModesOptions options{.count = 4, .dense_below = dense_below};
+    try {
+      solve_modes(p.K, p.M, none, options);
+      ADD_FAILURE() << dense_below;
+    } catch (const NumericalError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("a motion x, of row 100 most"));
+      EXPECT_LT(error.figure(), -0.01) << "a Rayleigh quotient, so from above";
+      EXPECT_GE(error.figure(), 2.0 - std::sqrt(5.0));
+    }
+    options.row_name = [](int row) { return fmt::format("mass {}", row + 1); };
+    EXPECT_THAT(refusal([&] { solve_modes(p.K, p.M, none, options); }), HasSubstr("of mass 101 most"));
+  }
+}
+
+// A massless dof on a negative spring: no shift makes K + sM positive, and the message says where.
+TEST(Modes, ANegativeSpringWithoutMassIsRefusedByName) {
+  const Pencil p = chain({1.0, 1.0, 1.0, -3.0}, {1.0, 1.0, 0.0});
+  const auto name = [](int row) { return fmt::format("mass {}", row + 1); };
+  EXPECT_THAT(refusal([&] { solve_modes(p.K, p.M, none, {.count = 1, .row_name = name}); }), HasSubstr("of mass 3"));
+  EXPECT_THAT(refusal([&] { dense_modes(dense_matrix(p.K), dense_matrix(p.M), 1.0, 1, none, name); }),
+              HasSubstr("of mass 3"));
 }
 
 TEST(Modes, MatricesUnderWayAreRefused) {
