@@ -153,13 +153,21 @@ std::vector<MatrixRow> rows_of(const std::vector<Connection>& points, const Inte
 
 NamedMatrix& choose(const std::string& file, std::vector<NamedMatrix>& all,
                     std::initializer_list<std::string_view> names) {
+  NamedMatrix* chosen = nullptr;
   std::string list;
   for (NamedMatrix& matrix : all) {
-    if (std::ranges::find(names, upper(matrix.name)) != names.end()) return matrix;
     list += (list.empty() ? "" : ", ") + matrix.name;
+    if (std::ranges::find(names, upper(matrix.name)) == names.end()) continue;
+    if (chosen != nullptr)
+      throw InputError({file},
+                       fmt::format("has {} and {}, and which one is meant cannot be told", chosen->name, matrix.name),
+                       "Keep the boundary matrices of one superelement in a file");
+    chosen = &matrix;
   }
-  throw InputError({file}, fmt::format("found no matrix {}; the file has {}", *names.begin(), list),
-                   "Let EXTSEOUT write the boundary matrices (MATOP4)");
+  if (chosen == nullptr)
+    throw InputError({file}, fmt::format("found no matrix {}; the file has {}", *names.begin(), list),
+                     "Let EXTSEOUT write the boundary matrices (MATOP4)");
+  return *chosen;
 }
 
 std::string note_on_card(const std::string& name) {
