@@ -320,10 +320,9 @@ void require_complete_ports(const Model& model, const Structure& s) {
       if (const int row = s.dofs.row({port.node, d}); row >= 0 && k(row) == 0.0 && m(row) == 0.0)
         loose.emplace_back(directions[static_cast<std::size_t>(d)]);
     if (!loose.empty())
-      throw ModelError(
-          fmt::format("{}: port '{}' lies on node {}, which has neither stiffness nor mass in {}", model.source,
-                      port.name, model.node_ids[static_cast<std::size_t>(port.node)], fmt::join(loose, ", ")),
-          "Join the port to a `set` of several nodes: their translations carry its rotations");
+      throw ModelError(fmt::format("{}: port '{}' lies on {}, which has neither stiffness nor mass in {}", model.source,
+                                   port.name, name(model, port.node), fmt::join(loose, ", ")),
+                       "Join the port to a `set` of several nodes: their translations carry its rotations");
   }
 }
 

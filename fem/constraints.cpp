@@ -21,8 +21,7 @@ struct Term {
 struct Row {
   std::vector<Term> terms;
   int dependent = -1;
-  const char* kind = "";
-  long id = 0;
+  std::string link;  ///< its name
 };
 
 int full(int node, int direction) { return 6 * node + direction; }
@@ -32,11 +31,12 @@ bool has(Directions directions, int d) { return ((directions >> d) & 1U) != 0; }
 void rigid_link_rows(const Model& model, const RigidLink& link, std::vector<Row>& rows) {
   const Vec3& x = position(model, link.independent);
   const Mat6 axes = rotation6(link.axes);
+  const std::string by = link_name(model, link);
   for (const int node : link.dependents) {
     const Mat6 T = tau(position(model, node) - x);
     for (int d = 0; d < 6; ++d) {
       if (!has(link.directions, d)) continue;
-      Row row{{}, -1, "rigid link", link.id};
+      Row row{{}, -1, by};
       const Vec6 on_dependent = axes.col(d);
       const Vec6 on_independent = -T.transpose() * on_dependent;
       double largest = 0.0;
@@ -55,9 +55,10 @@ void rigid_link_rows(const Model& model, const RigidLink& link, std::vector<Row>
 
 void average_link_rows(const Model& model, const AverageLink& link, std::vector<Row>& rows) {
   const Mat6X A = averaging_matrix(model, link);
+  const std::string by = link_name(model, link);
   for (int d = 0; d < 6; ++d) {
     if (!has(link.directions, d)) continue;
-    Row row{{{full(link.reference, d), 1.0}}, full(link.reference, d), "averaging link", link.id};
+    Row row{{{full(link.reference, d), 1.0}}, full(link.reference, d), by};
     Eigen::Index column = 0;
     for (const AverageLink::Group& group : link.nodes)
       for (int i = 0; i < 6; ++i)
@@ -85,12 +86,12 @@ class Elimination {
   /// True when the row said something new; `notes` gets what else there is to say.
   bool add(const Model& model, const Row& row, std::vector<ConstraintNote>& notes) {
     const auto note = [&](ConstraintNote::Kind kind, int dof, double figure = 0.0) {
-      notes.push_back({kind, link_name(row), {dof / 6, dof % 6}, figure});
+      notes.push_back({kind, row.link, {dof / 6, dof % 6}, figure});
     };
     for (const Term& t : row.terms)
       if (!std::isfinite(t.c))
-        throw ModelError(fmt::format("{}: the {} {} has a coefficient that is not finite, at {}", model.source,
-                                     row.kind, row.id, name(model, {t.dof / 6, t.dof % 6})),
+        throw ModelError(fmt::format("{}: the {} has a coefficient that is not finite, at {}", model.source, row.link,
+                                     name(model, {t.dof / 6, t.dof % 6})),
                          "Give it a number");
     const std::vector<Term> terms = reduced(row.terms);
     if (terms.empty()) {
@@ -101,8 +102,8 @@ class Elimination {
     for (const Term& t : terms)
       if (!kept_.contains(t.dof)) largest = std::max(largest, std::abs(t.c));
     if (largest == 0.0)
-      throw ModelError(fmt::format("{}: the {} {} ties the port dof {} to ground or to another port", model.source,
-                                   row.kind, row.id, name(model, {terms.front().dof / 6, terms.front().dof % 6})),
+      throw ModelError(fmt::format("{}: the {} ties the port dof {} to ground or to another port", model.source,
+                                   row.link, name(model, {terms.front().dof / 6, terms.front().dof % 6})),
                        "A port's six dofs must stay free: move the port or drop that constraint");
     const Term* pivot = nullptr;
     for (const Term& t : terms) {
@@ -125,16 +126,14 @@ class Elimination {
       note(ConstraintNote::Kind::forced_zero, pivot->dof);
     else if (row.dependent >= 0 && expression(row.dependent) != nullptr)
       notes.push_back({ConstraintNote::Kind::dependent_twice,
-                       fmt::format("{}, dependent already by {}", link_name(row), given_up_by_.at(row.dependent)),
+                       fmt::format("{}, dependent already by {}", row.link, given_up_by_.at(row.dependent)),
                        {row.dependent / 6, row.dependent % 6}});
-    given_up_by_.emplace(pivot->dof, link_name(row));
+    given_up_by_.emplace(pivot->dof, row.link);
     give_up(pivot->dof, pivot->c, terms);
     return true;
   }
 
  private:
-  static std::string link_name(const Row& row) { return fmt::format("{} {}", row.kind, row.id); }
-
   enum State : char { free, held, dependent };
   static constexpr double digits_of_coefficients = 1e-6;  ///< that eight-column fields keep at least
 
@@ -201,7 +200,7 @@ std::vector<Row> rows_of(const Model& model) {
   for (const RigidLink& link : model.rigid_links) rigid_link_rows(model, link, rows);
   for (const AverageLink& link : model.average_links) average_link_rows(model, link, rows);
   for (const LinearConstraint& constraint : model.constraints) {
-    Row row{{}, -1, "linear constraint", constraint.id};
+    Row row{{}, -1, fmt::format("linear constraint {}", constraint.id)};
     for (const LinearConstraint::Term& t : constraint.terms)
       row.terms.push_back({full(t.dof.node, t.dof.direction), t.coefficient});
     if (!row.terms.empty()) row.dependent = row.terms.front().dof;
@@ -239,10 +238,9 @@ Mat6X averaging_matrix(const Model& model, const AverageLink& link) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(Eigen::MatrixXd{normal});
   if (!(eigen.eigenvalues()(0) > 1e-12 * eigen.eigenvalues()(5)))
     throw ModelError(
-        fmt::format(
-            "{}: the averaging link {} at node {} has nodes that do not determine a rigid motion (condition {:.1e})",
-            model.source, link.id, model.node_ids[static_cast<std::size_t>(link.reference)],
-            eigen.eigenvalues()(0) / eigen.eigenvalues()(5)),
+        fmt::format("{}: the {}{} has nodes that do not determine a rigid motion (condition {:.1e})", model.source,
+                    link_name(model, link), link.id < 0 ? "" : " at " + name(model, link.reference),
+                    eigen.eigenvalues()(0) / eigen.eigenvalues()(5)),
         "Add nodes off their common line, include their rotations, or use a rigid link");
   Mat6X A = normal.ldlt().solve(SW);
   A.bottomRows<3>() /= length;

@@ -219,8 +219,14 @@ struct Model {
   std::vector<Loss> losses;
 };
 
-/// "node 45 rz", with the file's node number.
+/// "node 45", with the file's number, or "port tip" where the node was made for a port.
+std::string name(const Model& model, int node);
+/// "node 45 rz".
 std::string name(const Model& model, const Dof& dof);
+
+/// "rigid link 7", with the file's number, or "rigid link of port tip" where it was made for a port.
+std::string link_name(const Model& model, const RigidLink& link);
+std::string link_name(const Model& model, const AverageLink& link);
 
 /// The place of a node [m]. Throws ModelError when the file that it came from does not tell it.
 const Vec3& position(const Model& model, int node);

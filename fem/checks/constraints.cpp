@@ -52,22 +52,20 @@ void checks::check_supports(const Model& model, const CheckLimits& limits, std::
   std::set<std::pair<int, int>> held;
   for (const Support& support : model.supports) held.emplace(support.dof.node, support.dof.direction);
   Places places;
-  const auto look = [&](const Dof& dof, const char* kind, long id) {
-    if (held.contains({dof.node, dof.direction}))
-      places.add(0.0, fmt::format("{} of {} {}", name(model, dof), kind, id));
+  const auto look = [&](const Dof& dof, const std::string& link) {
+    if (held.contains({dof.node, dof.direction})) places.add(0.0, fmt::format("{} of {}", name(model, dof), link));
   };
-  const auto look_all = [&](int node, Directions directions, const char* kind, long id) {
+  const auto look_all = [&](int node, Directions directions, const std::string& link) {
     for (int d = 0; d < 6; ++d)
-      if ((directions >> d) & 1U) look({node, d}, kind, id);
+      if ((directions >> d) & 1U) look({node, d}, link);
   };
   for (const RigidLink& link : model.rigid_links) {
     if (!link.axes.isIdentity(0.0)) continue;  // its directions are no single dofs
-    for (const int node : link.dependents) look_all(node, link.directions, "rigid link", link.id);
+    for (const int node : link.dependents) look_all(node, link.directions, link_name(model, link));
   }
-  for (const AverageLink& link : model.average_links)
-    look_all(link.reference, link.directions, "averaging link", link.id);
+  for (const AverageLink& link : model.average_links) look_all(link.reference, link.directions, link_name(model, link));
   for (const LinearConstraint& row : model.constraints)
-    if (!row.terms.empty()) look(row.terms.front().dof, "linear constraint", row.id);
+    if (!row.terms.empty()) look(row.terms.front().dof, fmt::format("linear constraint {}", row.id));
   places.report(findings,
                 {.severity = Severity::warning,
                  .check = "held_dependents",
