@@ -53,7 +53,11 @@ class Text {
   void add(const SceneSection& s) {
     (*this)(s.set, s.shape.index(), s.material, s.orientation, s.rod, s.rotary_inertia, s.offset, s.normal_offset);
     std::visit([this](const auto& shape) { (*this)(shape); }, s.shape);
+    (*this)(s.along.has_value(), s.taper != nullptr);
+    if (s.along) (*this)((*s.along)[0], (*s.along)[1]);
+    if (s.taper) (*this)(s.taper(0.0), s.taper(0.5), s.taper(1.0));
   }
+  void add(const SceneSet& s) { (*this)(s.name); }
   void add(const SceneSupport& s) { (*this)(s.set, s.directions); }
   void add(const SceneNodeMass& m) { (*this)(m.where, m.mass, m.inertia, m.offset); }
   void add(const SceneSpring& s) {
