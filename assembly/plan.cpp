@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numbers>
+
+#include "fem/formats/deck.hpp"
 
 namespace tenon::assembly {
 namespace {
@@ -91,12 +94,26 @@ BodyPlan plan_body(const SceneBody& scene_body, const Requirement& requirement) 
   return body;
 }
 
+/// What a body holds by itself, the scene need not.
+std::string note_without_ground(const Scene& scene) {
+  bool decks = false;
+  for (const SceneBody& body : scene.bodies) {
+    const auto* fe = std::get_if<FeSource>(&body.source);
+    if (!fe) continue;
+    decks = decks || fem::is_deck(fe->file);
+    if (!fe->supports.empty() || std::ranges::any_of(fe->springs, [](const SceneSpring& s) { return !s.to; }))
+      return fmt::format("The scene grounds nothing; body '{}' holds itself, and is solved alone.", body.name);
+  }
+  return decks ? "The scene grounds nothing: the system floats free with six rigid motions, unless its decks hold it."
+               : "Nothing is grounded: the system floats free with six rigid motions.";
+}
+
 }  // namespace
 
 Plan plan(const Scene& scene) {
   Plan plan;
   for (const SceneBody& body : scene.bodies) plan.bodies.push_back(plan_body(body, scene.requirement));
-  if (scene.ground.empty()) plan.notes.push_back("Nothing is grounded: the system floats free with six rigid motions.");
+  if (scene.ground.empty()) plan.notes.push_back(note_without_ground(scene));
   if (scene.inputs.empty()) plan.notes.push_back("The scene names no inputs: it has modes, but no responses.");
   if (scene.outputs.empty()) plan.notes.push_back("The scene names no outputs: it has modes, but no responses.");
   return plan;

@@ -51,6 +51,12 @@ struct SceneSection {
   Place place;
 };
 
+/// A set that the scene names; "everywhere": all cells that no section names.
+struct SceneSet {
+  std::string name;
+  Place place;
+};
+
 struct SceneSupport {
   std::string set;  ///< "everywhere": all nodes
   fem::Directions directions = fem::all_six;
@@ -99,7 +105,7 @@ struct FeSource {
   std::vector<SceneNodeMass> masses;
   std::vector<SceneSpring> springs;
   std::optional<fem::BeamMass> beam_mass;  ///< absent: high order for meshes, the deck's own for decks
-  std::vector<std::string> ignore;         ///< sets that carry no structure
+  std::vector<SceneSet> ignore;            ///< sets that carry no structure
   std::vector<std::string> allow;          ///< losses that may change the physics
 };
 

@@ -26,15 +26,31 @@ const char* cells_of_dimension(int dimension) {
   return dimension == 1 ? "lines" : dimension == 2 ? "triangles or quadrilaterals" : "solids";
 }
 
-/// Sets that the scene uses for something else than structure.
-std::set<std::string> explained_sets(const SceneBody& body, const FeSource& fe) {
-  std::set<std::string> names(fe.ignore.begin(), fe.ignore.end());
+/// Sets that the scene uses to hold, join or load points.
+std::set<std::string> used_sets(const SceneBody& body, const FeSource& fe) {
+  std::set<std::string> names;
   for (const ScenePort& port : body.ports)
     if (port.where.kind == NodeSelector::Kind::set) names.insert(port.where.name);
   for (const SceneSupport& support : fe.supports) names.insert(support.set);
   for (const SceneNodeMass& mass : fe.masses)
     if (mass.where.kind == NodeSelector::Kind::set) names.insert(mass.where.name);
   return names;
+}
+
+std::set<std::string> ignored_sets(const FeSource& fe) {
+  std::set<std::string> names;
+  for (const SceneSet& set : fe.ignore) names.insert(set.name);
+  return names;
+}
+
+[[noreturn]] void refuse_unknown(const Mesh& mesh, const std::string& set, const Place& place) {
+  std::vector<std::string> names;
+  for (const auto& [name, cells] : mesh.cell_sets) names.push_back(name);
+  const std::string near = fem::near_miss(set, names);
+  throw InputError(place, fmt::format("{} has no set of cells '{}'", mesh.source, set),
+                   !near.empty()   ? fmt::format("Did you mean '{}'?", near)
+                   : names.empty() ? "It names no sets; write `everywhere` for all cells"
+                                   : fmt::format("Its sets are: {}", fmt::join(names, ", ")));
 }
 
 void cover_set(const Mesh& mesh, const FeSource& fe, int index, Cover& cover) {
@@ -44,13 +60,7 @@ void cover_set(const Mesh& mesh, const FeSource& fe, int index, Cover& cover) {
     if (mesh.point_sets.contains(section.set))
       throw InputError(section.place, fmt::format("set '{}' holds points and no cells", section.set),
                        "Name a set of cells");
-    std::vector<std::string> names;
-    for (const auto& [name, cells] : mesh.cell_sets) names.push_back(name);
-    const std::string near = fem::near_miss(section.set, names);
-    throw InputError(section.place, fmt::format("{} has no set of cells '{}'", mesh.source, section.set),
-                     !near.empty()   ? fmt::format("Did you mean '{}'?", near)
-                     : names.empty() ? "It names no sets; write `everywhere` for all cells"
-                                     : fmt::format("Its sets are: {}", fmt::join(names, ", ")));
+    refuse_unknown(mesh, section.set, section.place);
   }
   int covered = 0;
   for (std::size_t b = 0; b < found->second.size(); ++b) {
@@ -73,6 +83,25 @@ void cover_set(const Mesh& mesh, const FeSource& fe, int index, Cover& cover) {
                      "Give shells to surfaces and beam sections to lines");
 }
 
+/// Sets to ignore must be there, and hold cells that no section names.
+void check_ignored(const Mesh& mesh, const FeSource& fe, const Cover& cover) {
+  for (const SceneSet& set : fe.ignore) {
+    if (set.name == "everywhere" || mesh.point_sets.contains(set.name)) continue;
+    const auto found = mesh.cell_sets.find(set.name);
+    if (found == mesh.cell_sets.end()) refuse_unknown(mesh, set.name, set.place);
+    bool empty = true, covered = true;
+    for (std::size_t b = 0; b < found->second.size(); ++b)
+      for (const int cell : found->second[b]) {
+        empty = false;
+        covered = covered && cover[b][static_cast<std::size_t>(cell)] >= 0;
+      }
+    if (!empty && covered)
+      throw InputError(set.place,
+                       fmt::format("all cells of the set '{}' have a section, so none can be ignored", set.name),
+                       "Take it out of `ignore` or out of `sections`");
+  }
+}
+
 /// Marks the cells of the named sets.
 std::vector<std::vector<bool>> cells_of_sets(const Mesh& mesh, const std::set<std::string>& sets) {
   std::vector<std::vector<bool>> marks;
@@ -93,22 +122,36 @@ std::string sets_of_cell(const Mesh& mesh, std::size_t block, int cell) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-[[noreturn]] void refuse_uncovered(const Mesh& mesh, const SceneBody& body, const Cover& cover,
-                                   const std::vector<std::vector<bool>>& explained, std::size_t block, int cell) {
-  const std::string sets = sets_of_cell(mesh, block, cell);
+/// Body, number of the cells and the first of them, for a message.
+std::string cells_in_words(const Mesh& mesh, const SceneBody& body, const std::vector<bool>& marks, std::size_t block) {
+  const auto first = std::ranges::find(marks, true) - marks.begin();
   const CellBlock& cells = mesh.cells[block];
-  long count = 0;
-  for (std::size_t k = 0; k < cover[block].size(); ++k)
-    if (cover[block][k] < 0 && !explained[block][k]) ++count;
-  const bool solid = fem::dimension(cells.type) == 3;
+  const std::string sets = sets_of_cell(mesh, block, static_cast<int>(first));
+  return fmt::format("body '{}': {} {} cells of {}, the first is {}{},", body.name, std::ranges::count(marks, true),
+                     fem::name(cells.type), mesh.source, cells.ids[static_cast<std::size_t>(first)],
+                     sets.empty() ? " (in no set)" : fmt::format(" of set {}", sets));
+}
+
+[[noreturn]] void refuse_uncovered(const Mesh& mesh, const SceneBody& body, const std::vector<bool>& marks,
+                                   std::size_t block) {
+  const bool in_a_set =
+      !sets_of_cell(mesh, block, static_cast<int>(std::ranges::find(marks, true) - marks.begin())).empty();
   throw InputError(
-      body.place,
-      fmt::format("body '{}': {} {} cells of {} have no section; the first is cell {}{}", body.name, count,
-                  fem::name(cells.type), mesh.source, cells.ids[static_cast<std::size_t>(cell)],
-                  sets.empty() ? " (in no set)" : fmt::format(" of set {}", sets)),
-      solid          ? "Solid elements are not among the elements of this version: mesh the part with shells and beams"
-      : sets.empty() ? "Add `everywhere: {...}` under sections, or save only physical groups in the mesh"
-                     : "Add the set under `sections`, or under `ignore` if it carries no structure");
+      body.place, fmt::format("{} have no section", cells_in_words(mesh, body, marks, block)),
+      fem::dimension(mesh.cells[block].type) == 3
+          ? "Solid elements are not among the elements of this version: mesh the part with shells and beams"
+      : in_a_set ? "Add the set under `sections`, or under `ignore` if it carries no structure"
+                 : "Add `everywhere: {...}` under sections, `ignore: [everywhere]` if what no section names carries no "
+                   "structure, or save only physical groups in the mesh");
+}
+
+[[noreturn]] void refuse_doubtful(const Mesh& mesh, const SceneBody& body, const std::vector<bool>& marks,
+                                  std::size_t block) {
+  throw InputError(body.place,
+                   fmt::format("{} are named to hold, join or load the body, so whether `everywhere` means them too "
+                               "cannot be told",
+                               cells_in_words(mesh, body, marks, block)),
+                   "Add the set under `sections` as well, or under `ignore` if it carries no structure");
 }
 
 /// Any direction that is not along the beam will do for a round section.
@@ -229,17 +272,25 @@ Cover cover_cells(const Mesh& mesh, const SceneBody& body, const FeSource& fe) {
   for (std::size_t k = 0; k < fe.sections.size(); ++k)
     if (fe.sections[k].set != "everywhere") cover_set(mesh, fe, static_cast<int>(k), cover);
 
-  const auto explained = cells_of_sets(mesh, explained_sets(body, fe));
+  check_ignored(mesh, fe, cover);
+  const std::set<std::string> ignored = ignored_sets(fe);
+  const auto used = cells_of_sets(mesh, used_sets(body, fe)), left_out = cells_of_sets(mesh, ignored);
   for (std::size_t b = 0; b < mesh.cells.size(); ++b) {
     const int dimension = fem::dimension(mesh.cells[b].type);
     if (dimension == 0) continue;
+    const auto everywhere = std::ranges::find_if(fe.sections, [&](const SceneSection& section) {
+      return section.set == "everywhere" && dimension_of(section) == dimension;
+    });
+    const bool any = everywhere != fe.sections.end();
+    std::vector<bool> uncovered(cover[b].size(), false), doubtful(cover[b].size(), false);
     for (std::size_t k = 0; k < cover[b].size(); ++k) {
-      if (cover[b][k] >= 0 || explained[b][k]) continue;
-      for (std::size_t s = 0; s < fe.sections.size(); ++s)
-        if (fe.sections[s].set == "everywhere" && dimension_of(fe.sections[s]) == dimension)
-          cover[b][k] = static_cast<int>(s);
-      if (cover[b][k] < 0) refuse_uncovered(mesh, body, cover, explained, b, static_cast<int>(k));
+      if (cover[b][k] >= 0 || left_out[b][k]) continue;
+      if (any) cover[b][k] = static_cast<int>(everywhere - fe.sections.begin());
+      doubtful[k] = any && used[b][k];
+      uncovered[k] = !any && !used[b][k] && !ignored.contains("everywhere");
     }
+    if (std::ranges::count(doubtful, true) > 0) refuse_doubtful(mesh, body, doubtful, b);
+    if (std::ranges::count(uncovered, true) > 0) refuse_uncovered(mesh, body, uncovered, b);
   }
   return cover;
 }

@@ -231,7 +231,8 @@ FeSource read_fe(const Member& entry, const std::filesystem::path& folder, const
     for (const Member& spring : springs->members) fe.springs.push_back(read_spring(spring, units));
   if (const Value* mass = body.find("beam_mass"))
     fe.beam_mass = static_cast<fem::BeamMass>(choice(*mass, {"high-order", "consistent", "nastran"}));
-  fe.ignore = texts(body.find("ignore"));
+  if (const Value* ignore = body.find("ignore"))
+    for (const Value* set : words(*ignore)) fe.ignore.push_back({set->text, set->place});
   fe.allow = texts(body.find("allow"));
   return fe;
 }

@@ -64,6 +64,21 @@ constexpr const char* beam_words =
     "{tube: [OUTER, INNER]}  # radii; or circle, rectangle, box, i, channel, general; move to `ignore` if it is no "
     "structure";
 
+/// Sets of surfaces that hold lines as well, such as their edges.
+std::string ignored_lines(const fem::Mesh& mesh, const std::filesystem::path& file) {
+  std::vector<std::string> names;
+  for (const auto& [set, blocks] : mesh.cell_sets) {
+    if (dimension_of(mesh, blocks) != 2) continue;
+    for (std::size_t b = 0; b < blocks.size(); ++b)
+      if (!blocks[b].empty() && fem::dimension(mesh.cells[b].type) == 1) {
+        names.push_back(quoted(set, file));
+        break;
+      }
+  }
+  if (names.empty()) return {};
+  return fmt::format("    ignore: [{}]  # their lines; the surfaces have sections above\n", fmt::join(names, ", "));
+}
+
 std::string section_lines(const fem::Mesh& mesh, const std::filesystem::path& file) {
   std::string text;
   for (const auto& [set, blocks] : mesh.cell_sets) {
@@ -71,14 +86,20 @@ std::string section_lines(const fem::Mesh& mesh, const std::filesystem::path& fi
     if (dimension == 2) text += fmt::format("      {}: {}\n", quoted(set, file), shell_words);
     if (dimension == 1) text += fmt::format("      {}: {}\n", quoted(set, file), beam_words);
   }
-  if (!text.empty()) return text;
+  if (!text.empty()) return text + ignored_lines(mesh, file);
   int highest = 0;
   for (const fem::CellBlock& block : mesh.cells)
-    if (const int d = fem::dimension(block.type); d < 3) highest = std::max(highest, d);
+    if (const int d = fem::dimension(block.type); d < 3 && block.size() > 0) highest = std::max(highest, d);
   if (highest == 0)
     throw InputError({file.string()}, "holds neither lines nor surfaces, which beams and shells are made of",
                      "A part of solids comes in by the K and M of the program that owns it: `matrices:` of a scene");
-  return fmt::format("      everywhere: {}\n", highest == 2 ? shell_words : beam_words);
+  const bool lines = std::ranges::any_of(
+      mesh.cells, [](const fem::CellBlock& block) { return fem::dimension(block.type) == 1 && block.size() > 0; });
+  return fmt::format("      everywhere: {}\n{}", highest == 2 ? shell_words : beam_words,
+                     highest == 2 && lines
+                         ? "    ignore: [everywhere]        # the lines of the mesh, in no set: name those "
+                           "that are beams in the mesh\n"
+                         : "");
 }
 
 /// Points of which the deck holds a direction: no joint can take them.

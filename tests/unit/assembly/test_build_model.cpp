@@ -5,6 +5,8 @@
 
 #include "assembly/build.hpp"
 #include "assembly/same_body.hpp"
+#include "fem/structure.hpp"
+#include "tests/refusal.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace tenon::assembly {
@@ -255,6 +257,43 @@ TEST_F(BuildModel, RefusesWhatDoesNotFitTheMesh) {
   EXPECT_THAT(fault("fe: panel.msh", "fe: absent.msh"), HasSubstr("absent.msh"));
 }
 
+// "edge" holds a line that two ports name: whether a section of lines everywhere means it too is the user's to say.
+TEST_F(BuildModel, EverywhereTakesNoCellsOfPorts) {
+  const std::string yoke = "yoke: {circle: 50}", fix = "    fix:";
+  EXPECT_THAT(fault(yoke, "everywhere: {circle: 50}"),
+              testing::AllOf(HasSubstr("scene.yaml:3:3"), HasSubstr("1 line cells of"), HasSubstr("is 4 of set 'edge'"),
+                             HasSubstr("whether `everywhere` means them")));
+  const auto beams = [](const fem::Model& model) {
+    return std::ranges::count_if(model.elements, [](const auto& e) { return std::holds_alternative<fem::Beam>(e); });
+  };
+  EXPECT_EQ(beams(build(with(yoke, "everywhere: {circle: 50}, edge: {circle: 50}"))), 2);
+  std::string ignored = with(yoke, "everywhere: {circle: 50}");
+  EXPECT_EQ(beams(build(ignored.insert(ignored.find(fix), "    ignore: [edge]\n"))), 1);
+}
+
+TEST_F(BuildModel, IgnoresWhatIsNamedAndNothingElse) {
+  const auto ignoring = [&](const std::string& sets) { return "    ignore: [" + sets + "]\n    fix:"; };
+  EXPECT_THAT(fault("    fix:", ignoring("edg")),
+              testing::AllOf(HasSubstr("scene.yaml:8:14"), HasSubstr("no set of cells 'edg'"), HasSubstr("'edge'?")));
+  EXPECT_THAT(fault("    fix:", ignoring("edge, skin")),
+              testing::AllOf(HasSubstr("scene.yaml:8:20"), HasSubstr("all cells of the set 'skin' have a section")));
+  std::string text = with("    fix:", ignoring("everywhere"));
+  const std::string yoke = ", yoke: {circle: 50}";
+  text.erase(text.find(yoke), yoke.size());
+  const std::string root = "{set: root}";  // at the yoke's end
+  text.replace(text.find(root), root.size(), "{node: 2}");
+  EXPECT_EQ(build(text).elements.size(), 4u);  // two shells, two masses
+}
+
+TEST_F(BuildModel, NamesLinksByTheirPorts) {
+  std::string text = with("{set: edge, kind: average}", "{set: edge, kind: average, at: [3000, 0, 0]}");
+  fem::Model model = build(text);
+  model.average_links.at(0).nodes.resize(1);
+  for (auto& group : model.average_links.at(0).nodes) group.directions = 0b000111;
+  EXPECT_THAT(tests::refusal([&] { fem::assemble(model); }),
+              HasSubstr("the averaging link of port mean has nodes that do not"));
+}
+
 TEST_F(BuildModel, RefusesCellsWithTwoSections) {
   std::string text = mesh;
   text.replace(text.find("5 3 2 4 1 2 3 6 5"), 17, "5 3 2 4 1 2 3 6 5\n7 3 2 6 1 2 3 6 5");
@@ -309,10 +348,16 @@ TEST_F(BuildModel, FingerprintsDifferWhereBodiesDo) {
                                  {"mass: 0.001", "mass: 0.0011"},
                                  {"node: 3", "node: 4"},
                                  {"length: mm", "length: m"},
+                                 {"{circle: 50}", "{circle: 50, tip: 40, along: [[0, 0, 0], [1, 0, 0]]}"},
                                  {"    fix:", "    damping: 0.01\n    fix:"},
                                  {"    fix:", "    reduction: {modes: 7}\n    fix:"},
                                  {"    fix:", "    reduction: rigid\n    fix:"}})
     EXPECT_NE(print_of(with(from, to)), own) << to;
+  const auto tapered = [&](const char* way) { return print_of(with("{circle: 50}", way)); };
+  EXPECT_NE(tapered("{circle: 50, tip: 40, along: [[0, 0, 0], [1, 0, 0]]}"),
+            tapered("{circle: 50, tip: 30, along: [[0, 0, 0], [1, 0, 0]]}"));
+  EXPECT_NE(tapered("{circle: 50, tip: 40, along: [[0, 0, 0], [1, 0, 0]]}"),
+            tapered("{circle: 50, tip: 40, along: [[0, 0, 0], [2, 0, 0]]}"));
   const Scene scene = read_scene(folder_.write("scene.yaml", scene_text));
   BodyPlan moving = plan(scene).bodies[0];
   moving.options.nonlinear = true;  // shape integrals

@@ -314,6 +314,17 @@ TEST_F(Cli, InitWritesScenesForEveryFormat) {
                 "1 3 2 1 1 1 2 3 4\n2 1 2 2 2 4 1\n3 1 2 3 3 1 3\n$EndElements\n");
   EXPECT_THAT(check("rim.msh"), AllOf(HasSubstr("      # rim: {set: rim}  # lines along edges"),
                                       Not(HasSubstr("# brace")), HasSubstr("brace: {tube"), HasSubstr("rim: {tube")));
+  // lines that no group names beside surfaces that none names, and a group of a surface and its edges
+  folder_.write("bare.msh",
+                "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n"
+                "$Elements\n2\n1 3 2 0 1 1 2 3 4\n2 1 2 0 2 4 1\n$EndElements\n");
+  EXPECT_THAT(check("bare.msh"), AllOf(HasSubstr("everywhere: {shell"), HasSubstr("    ignore: [everywhere]  ")));
+  folder_.write(
+      "both.msh",
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 1 \"skin\"\n1 2 \"skin\"\n$EndPhysicalNames\n"
+      "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n"
+      "$Elements\n2\n1 3 2 1 1 1 2 3 4\n2 1 2 2 2 4 1\n$EndElements\n");
+  EXPECT_THAT(check("both.msh"), AllOf(HasSubstr("skin: {shell"), HasSubstr("    ignore: [skin]  ")));
   folder_.write("alike.msh",
                 "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n4\n2 1 \"skin\"\n1 2 \"rim a\"\n"
                 "1 3 \"rim_a\"\n1 4 \"root\"\n$EndPhysicalNames\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n"
