@@ -4,6 +4,7 @@
 #include <set>
 
 #include "fem/formats/abaqus/draft.hpp"
+#include "fem/formats/abaqus/surfaces.hpp"
 
 namespace tenon::fem::abaqus {
 namespace {
@@ -20,7 +21,6 @@ struct LinkReader {
 
   Model& model() { return draft.deck.model; }
   int reference(const Block& block, const char* parameter) const;
-  std::vector<int> surface(const Block& block, const std::string& name);
   void rigid(int reference, std::vector<int> dependents, Directions directions);
   void equate(int a, int direction_a, int b, int direction_b);
 
@@ -56,8 +56,8 @@ void LinkReader::equate(int a, int direction_a, int b, int direction_b) {
   model().constraints.push_back({.terms = {{{a, direction_a}, 1.0}, {{b, direction_b}, -1.0}}, .id = next_id++});
 }
 
-// all six directions of the nodes follow REF NODE; PIN NSET: the translations only. In CalculiX the translations of ROT
-// NODE are the body's rotations.
+// All six directions of the nodes follow REF NODE; of PIN NSET, and of NSET, which CalculiX alone has, the translations
+// only (run: a shell's edge may turn about itself). In CalculiX the translations of ROT NODE are the body's rotations.
 void LinkReader::rigid_body(const Block& block) {
   static const std::set<std::string> known{"REF NODE", "NSET",     "TIE NSET",           "PIN NSET",
                                            "ELSET",    "ROT NODE", "ANALYTICAL SURFACE", "ISOTHERMAL"};
@@ -65,62 +65,25 @@ void LinkReader::rigid_body(const Block& block) {
     if (!known.contains(parameter))
       draft.losses.add_physical(fmt::format("*RIGID BODY, {}", parameter), "this parameter is not read", block.place);
   const int ref = reference(block, "REF NODE");
-  std::vector<int> nodes;
-  for (const char* parameter : {"NSET", "TIE NSET"})
-    if (block.has(parameter))
-      for (const int node : draft.node_set(block.value(parameter), block, block.place)) nodes.push_back(node);
+  std::vector<int> nodes, pinned;
+  const auto add_set = [&](const char* parameter, std::vector<int>& to) {
+    if (!block.has(parameter)) return;
+    for (const int node : draft.node_set(block.value(parameter), block, block.place)) to.push_back(node);
+  };
+  add_set("TIE NSET", nodes);
+  add_set("PIN NSET", pinned);
+  add_set("NSET", pinned);
   if (block.has("ELSET"))
     for (const int e : draft.element_set(block.value("ELSET"), block, block.place))
       for (const int node : draft.nodes_of(e)) nodes.push_back(node);
   if (block.has("ANALYTICAL SURFACE")) draft.losses.add("*RIGID BODY", "ANALYTICAL SURFACE: a surface for contact");
-  std::vector<int> pinned;
-  if (block.has("PIN NSET")) pinned = draft.node_set(block.value("PIN NSET"), block, block.place);
   const auto others = [&](const std::vector<int>& set) { return std::ssize(set) - std::ranges::count(set, ref); };
   if (others(nodes) + others(pinned) == 0)
     block.refuse("*RIGID BODY has no nodes besides its reference", "Name them by NSET, ELSET, TIE NSET or PIN NSET");
   rigid(ref, sorted_unique(std::move(nodes)), all_six);
-  rigid(ref, std::move(pinned), 0b000111);
+  rigid(ref, sorted_unique(std::move(pinned)), 0b000111);
   if (block.has("ROT NODE"))
     for (int d = 0; d < 3; ++d) equate(reference(block, "ROT NODE"), d, ref, 3 + d);
-}
-
-/// Nodes of *SURFACE: lists of nodes, or sides of shells.
-std::vector<int> LinkReader::surface(const Block& asker, const std::string& name) {
-  const Block* found = nullptr;
-  const std::string key = draft.key(name, asker);
-  for (const Block& block : draft.text.blocks) {
-    if (block.keyword != "SURFACE" || draft.key(block.value("NAME"), block) != key) continue;
-    if (found)
-      block.refuse(fmt::format("surface '{}' stands already at {}", block.value("NAME"), to_string(found->place)),
-                   "Give it a name of its own or remove one of the two");
-    found = &block;
-  }
-  if (!found) asker.refuse(fmt::format("there is no surface '{}'", name), "Define it by *SURFACE");
-  std::vector<int> nodes;
-  const bool of_nodes = found->upper_value("TYPE") == "NODE";
-  DataLines line(*found);
-  while (line.next()) {
-    if (of_nodes) {
-      for (const int node : draft.nodes(line, 0, "a node or a node set")) nodes.push_back(node);
-      continue;
-    }
-    const std::string side = upper(line.at(1));
-    if (!side.empty() && side != "SPOS" && side != "SNEG")
-      line.refuse(1, fmt::format("side {} of elements is not read", side),
-                  "Give the surface as a list of nodes (*SURFACE, TYPE=NODE)");
-    std::vector<int> elements;
-    if (const auto id = parse_integer(line.at(0))) {
-      const auto element = draft.element_of.find(draft.number(*found, *id));
-      if (element == draft.element_of.end())
-        line.refuse(0, fmt::format("element {} is not defined", *id), "Correct the number");
-      elements.push_back(element->second);
-    } else {
-      elements = draft.element_set(std::string(line.at(0)), *found, line.place(0));
-    }
-    for (const int e : elements)
-      for (const int node : draft.nodes_of(e)) nodes.push_back(node);
-  }
-  return sorted_unique(std::move(nodes));
 }
 
 /// First to last dof on a data line as bits; both blank: all six.
@@ -141,32 +104,40 @@ void LinkReader::coupling(const Block& block, const Block* kind) {
     return;
   }
   const std::string name = block.value("SURFACE");
-  std::vector<int> nodes = surface(block, name);
-  std::erase(nodes, ref);
-  if (nodes.empty())
+  Surface nodes = read_surface(draft, block, name);
+  nodes.weights.erase(ref);
+  if (nodes.weights.empty())
     block.refuse(fmt::format("surface '{}' holds no other node than the reference", name), "Correct it");
   if (!kind)
     block.refuse("*COUPLING is followed by neither *KINEMATIC nor *DISTRIBUTING", "Say which of the two it is");
   Directions bits = 0;
   DataLines line(*kind);
   while (line.next()) bits = static_cast<Directions>(bits | directions(line, 0));
-  if (bits == 0) bits = all_six;
-  for (const int node : nodes)
+  const bool unsaid = bits == 0;
+  if (unsaid) bits = all_six;
+  for (const auto& [node, weight] : nodes.weights)
     if (draft.node_axes.contains(node))
       draft.losses.add_physical("*COUPLING", "nodes with *TRANSFORM are not read in it", block.place);
   if (block.has("INFLUENCE RADIUS"))
     draft.losses.add_physical("*COUPLING, INFLUENCE RADIUS", "this parameter is not read", block.place);
   if (kind->keyword == "KINEMATIC") {
-    rigid(ref, std::move(nodes), bits);
+    if (unsaid)
+      draft.losses.add("*KINEMATIC",
+                       "without directions all six are tied, as Abaqus does; CalculiX ties translations alone");
+    std::vector<int> dependents;
+    for (const auto& [node, weight] : nodes.weights) dependents.push_back(node);
+    rigid(ref, std::move(dependents), bits);
     return;
   }
   if (kind->has("COUPLING"))
     draft.losses.add_physical("*DISTRIBUTING, COUPLING", "this parameter is not read", kind->place);
-  draft.losses.add("*DISTRIBUTING", "nodes of the surface count alike; Abaqus weighs those of elements by area");
+  if (!nodes.weighed)
+    draft.losses.add_physical("*DISTRIBUTING", "the area that nodes of second-order elements bear is not known",
+                              kind->place);
   if (kind->has("WEIGHTING METHOD") && kind->upper_value("WEIGHTING METHOD") != "UNIFORM")
     draft.losses.add_physical("*DISTRIBUTING", "weights that vary are read as uniform", kind->place);
   AverageLink link{.reference = ref, .directions = bits, .nodes = {}, .id = next_id++};
-  for (const int node : nodes) link.nodes.push_back({.node = node});
+  for (const auto& [node, weight] : nodes.weights) link.nodes.push_back({.node = node, .weight = weight});
   model().average_links.push_back(std::move(link));
 }
 

@@ -84,6 +84,17 @@ TEST(CalculixFrequencies, APlateOfShells) {
   compare(TemporaryFolder(), plate(10, "MATERIAL=STEEL\n.01"), 2e-2);
 }
 
+// The far edge follows a node that may not turn, translations alone: the plate turns about that edge, as CalculiX's.
+TEST(CalculixFrequencies, APlateWhoseEdgeIsARigidBody) {
+  TENON_SKIP_WITHOUT(calculix::installed(), "CalculiX (calculix-ccx)");
+  constexpr int n = 10;
+  std::string edge = "*NODE\n9000,1.,.4,0.\n9001,1.,.4,0.\n*NSET, NSET=EDGE\n";
+  for (int j = 0; j <= 2 * n; ++j) edge += fmt::format("{},\n", j * (2 * n + 1) + 2 * n + 1);
+  edge += "*RIGID BODY, NSET=EDGE, REF NODE=9000, ROT NODE=9001\n*BOUNDARY\n9001,1,3\n";
+  std::string deck = plate(n, "MATERIAL=STEEL\n.01");
+  compare(TemporaryFolder(), deck.insert(deck.find("*STEP"), edge), 2e-2);
+}
+
 // Three layers of a lamina across, along and at 30°, unsymmetric, with a density of their own each.
 TEST(CalculixFrequencies, APlateOfLayers) {
   TENON_SKIP_WITHOUT(calculix::installed(), "CalculiX (calculix-ccx)");

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <map>
 #include <numbers>
 
 #include "fem/error.hpp"
@@ -186,6 +187,50 @@ TEST_F(Abaqus, AnISectionOffItsNodes) {
   EXPECT_NEAR((std::get<Beam>(model.elements[0]).offsets[0] - Vec3(0, 0, .05)).norm(), 0.0, 1e-15);
 }
 
+// ∫ N dA: a third of a triangle, a quarter of a rectangle; of any flat quadrilateral they hold its area and centroid.
+TEST_F(Abaqus, DistributingWeighsByArea) {
+  const std::string sheet = R"(*NODE
+1, 0., 0., 0.
+2, 2., 0., 0.
+3, 2., 1., 0.
+4, 0., 1., 0.
+5, 5., 0., 0.
+6, 4., 2., 0.
+7, 0., 3., 0.
+99, 1., 1., 4.
+*ELEMENT, TYPE=S4, ELSET=SKIN
+1, 1, 2, 3, 4
+2, 2, 5, 6, 3
+*ELEMENT, TYPE=S3, ELSET=SKIN
+3, 4, 3, 7
+*MATERIAL, NAME=M
+*ELASTIC
+2e11, 0.3
+*SHELL SECTION, ELSET=SKIN, MATERIAL=M
+0.01
+)";
+  const auto weights = [&](const std::string& surface) {
+    const Model model =
+        read(sheet + surface + "*COUPLING, REF NODE=99, SURFACE=S, CONSTRAINT NAME=C\n*DISTRIBUTING\n1, 6\n").model;
+    std::map<long, double> result;
+    for (const AverageLink::Group& group : model.average_links.at(0).nodes)
+      result[model.node_ids[static_cast<std::size_t>(group.node)]] = group.weight;
+    return result;
+  };
+  const auto ends = weights("*SURFACE, NAME=S\n1, SPOS\n3, SNEG\n");
+  for (const auto& [node, weight] :
+       std::map<long, double>{{1, 0.5}, {2, 0.5}, {3, 0.5 + 2.0 / 3.0}, {4, 0.5 + 2.0 / 3.0}, {7, 2.0 / 3.0}})
+    EXPECT_NEAR(ends.at(node), weight, 1e-15) << node;
+  const auto trapeze =
+      weights("*SURFACE, NAME=S\n2, SPOS\n");  // (2, 0), (5, 0), (4, 2), (2, 1): ∫ 1, x, y dA by Green's theorem
+  const double two = trapeze.at(2), five = trapeze.at(5), six = trapeze.at(6), three = trapeze.at(3);
+  EXPECT_NEAR(two + five + six + three, 4.0, 1e-14);
+  EXPECT_NEAR(2.0 * two + 5.0 * five + 4.0 * six + 2.0 * three, 41.0 / 3.0, 1e-14);
+  EXPECT_NEAR(2.0 * six + three, 3.0, 1e-14);
+  const auto listed = weights("*SURFACE, NAME=S, TYPE=NODE\n1, 2.5\n3,\n7, .5\n");
+  EXPECT_THAT(listed, ElementsAre(testing::Pair(1, 2.5), testing::Pair(3, 1.0), testing::Pair(7, 0.5)));
+}
+
 TEST_F(Abaqus, RigidBodiesCouplingsEquationsAndSprings) {
   const std::string nodes = cantilever + R"(*NODE
 30, 2., 1., 0.
@@ -195,6 +240,9 @@ TEST_F(Abaqus, RigidBodiesCouplingsEquationsAndSprings) {
   const Model rigid = read(nodes + "*NSET,NSET=rim\n30,31\n*RIGID BODY,NSET=rim,REF NODE=3\n").model;
   ASSERT_EQ(rigid.rigid_links.size(), 1U);
   EXPECT_THAT(rigid.rigid_links[0].dependents, ElementsAre(3, 4));
+  EXPECT_EQ(rigid.rigid_links[0].directions, 0b000111) << "NSET, of CalculiX alone: as PIN NSET";
+  const Model tied = read(nodes + "*NSET,NSET=rim\n30,31\n*RIGID BODY,TIE NSET=rim,REF NODE=3\n").model;
+  EXPECT_EQ(tied.rigid_links.at(0).directions, all_six);
   const Model kinematic = read(nodes + R"(*SURFACE,NAME=rim,TYPE=NODE
 30,
 31,
