@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <set>
+#include <string_view>
 
 #include "fem/formats/abaqus/draft.hpp"
 
@@ -37,7 +39,7 @@ constexpr const char* analysis = "loads, steps and output of an analysis";
 constexpr const char* of_material = "a property that the linear K and M do not use";
 constexpr const char* naming = "names and bookkeeping";
 
-// by what a keyword begins with
+// by the words that a keyword begins with
 constexpr std::array harmless{
     Harmless{"STEP", analysis},
     Harmless{"END STEP", analysis},
@@ -64,6 +66,7 @@ constexpr std::array harmless{
     Harmless{"RETAINED", analysis},
     Harmless{"SENSITIVITY", analysis},
     Harmless{"DESIGN", analysis},
+    Harmless{"DESIGNVARIABLES", analysis},
     Harmless{"OBJECTIVE", analysis},
     Harmless{"CLOAD", analysis},
     Harmless{"DLOAD", analysis},
@@ -119,7 +122,12 @@ constexpr std::array harmless{
     Harmless{"CONSTRAINT", naming}};
 
 const char* harmless_note(const std::string& keyword) {
-  const auto found = std::ranges::find_if(harmless, [&](const Harmless& h) { return keyword.starts_with(h.keyword); });
+  const auto begins = [&](const Harmless& h) {
+    const std::size_t length = std::string_view(h.keyword).size();
+    return keyword.starts_with(h.keyword) &&
+           (keyword.size() == length || !std::isalnum(static_cast<unsigned char>(keyword[length])));
+  };
+  const auto found = std::ranges::find_if(harmless, begins);
   return found == harmless.end() ? nullptr : found->note;
 }
 

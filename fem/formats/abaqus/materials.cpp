@@ -39,7 +39,7 @@ void elastic(const Block& block, DraftMaterial& current) {
   if (!type.empty() && type != "ISO" && type != "ISOTROPIC") {
     current.isotropic = false;
     if (type == "LAMINA") lamina(block, {0, 1, 2, 3, 4, 5}, current);
-    if (type == "ENGINEERING CONSTANTS") lamina(block, {0, 1, 3, 6, 7, 8}, current);
+    if (type == "ENGINEERING CONSTANTS" || type == "ENGINEERINGCONSTANTS") lamina(block, {0, 1, 3, 6, 7, 8}, current);
     return;
   }
   DataLines line(block);

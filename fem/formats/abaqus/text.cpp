@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 
@@ -19,14 +20,83 @@ std::string_view trim(std::string_view text) {
   return text;
 }
 
-/// Upper case, runs of blanks as one: "shell   section" → "SHELL SECTION".
+/// Names of two words and more, which CalculiX reads without their blanks as well.
+constexpr std::array words_of_names{"ANALYTICAL SURFACE",
+                                    "BASE MOTION",
+                                    "BEAM GENERAL SECTION",
+                                    "BEAM SECTION",
+                                    "COMPLEX FREQUENCY",
+                                    "COMPLEX STIFFNESS",
+                                    "CONTACT FILE",
+                                    "CONTACT OUTPUT",
+                                    "CONTACT PRINT",
+                                    "COUPLED TEMPERATURE-DISPLACEMENT",
+                                    "CYCLIC HARDENING",
+                                    "DEFORMATION PLASTICITY",
+                                    "EL FILE",
+                                    "EL PRINT",
+                                    "ELEMENT OUTPUT",
+                                    "END ASSEMBLY",
+                                    "END INSTANCE",
+                                    "END PART",
+                                    "END STEP",
+                                    "FIELD OUTPUT",
+                                    "FILE FORMAT",
+                                    "FLUID CONSTANTS",
+                                    "FLUID SECTION",
+                                    "GASKET SECTION",
+                                    "HEAT TRANSFER",
+                                    "HISTORY OUTPUT",
+                                    "INFLUENCE RADIUS",
+                                    "INITIAL CONDITIONS",
+                                    "MATRIX GENERATE",
+                                    "MATRIX OUTPUT",
+                                    "MEMBRANE SECTION",
+                                    "MODAL DAMPING",
+                                    "MODAL DYNAMIC",
+                                    "NODAL THICKNESS",
+                                    "NODE FILE",
+                                    "NODE OUTPUT",
+                                    "NODE PRINT",
+                                    "PHYSICAL CONSTANTS",
+                                    "PIN NSET",
+                                    "RANDOM RESPONSE",
+                                    "REF NODE",
+                                    "RIGID BODY",
+                                    "ROT NODE",
+                                    "ROTARY INERTIA",
+                                    "SECTION CONTROLS",
+                                    "SECTION INTEGRATION",
+                                    "SECTION PRINT",
+                                    "SHELL SECTION",
+                                    "SOLID SECTION",
+                                    "SPECIFIC GAS",
+                                    "SPECIFIC HEAT",
+                                    "STEADY STATE DYNAMICS",
+                                    "SURFACE SECTION",
+                                    "SYSTEM OF UNITS",
+                                    "THICKNESS MODULUS",
+                                    "TIE NSET",
+                                    "TIME POINTS",
+                                    "UNCOUPLED TEMPERATURE-DISPLACEMENT",
+                                    "VALUES AT INFINITY",
+                                    "WEIGHTING METHOD"};
+
+/// Upper case, runs of blanks as one: "shell   section" and "SHELLSECTION" → "SHELL SECTION".
 std::string keyword_name(std::string_view text) {
   std::string name;
   for (const char c : trim(text)) {
     if (white(c) && !name.empty() && name.back() == ' ') continue;
     name += white(c) ? ' ' : c;
   }
-  return upper(name);
+  name = upper(name);
+  if (name.find(' ') != std::string::npos) return name;
+  const auto without_blanks = [](std::string words) {
+    std::erase(words, ' ');
+    return words;
+  };
+  const auto found = std::ranges::find(words_of_names, name, without_blanks);
+  return found == words_of_names.end() ? name : *found;
 }
 
 /// Parts between commas that stand outside quotes.

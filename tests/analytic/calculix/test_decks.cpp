@@ -17,7 +17,13 @@ namespace {
 
 const fs::path decks = "/usr/share/doc/calculix-ccx-test/examples/test";
 
-/// How often each keyword begins a line: upper case, blanks as one, up to the first comma. Independent of the reader.
+/// CalculiX reads keywords with their blanks and without.
+std::string without_blanks(std::string name) {
+  std::erase(name, ' ');
+  return name;
+}
+
+/// How often each keyword begins a line: upper case, no blanks, up to the first comma. Independent of the reader.
 std::map<std::string, long> keywords(const fs::path& deck) {
   std::ifstream file(deck);
   std::map<std::string, long> counts;
@@ -30,13 +36,9 @@ std::map<std::string, long> keywords(const fs::path& deck) {
     if (line.compare(0, 2, "**") != 0) goes_on = (keyword || before) && line[end] == ',';
     if (!keyword) continue;
     std::string name;
-    for (const char c : line.substr(1, line.find(',') - 1)) {
+    for (const char c : line.substr(1, line.find(',') - 1))
       if (std::isspace(static_cast<unsigned char>(c)) == 0)
         name += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-      else if (!name.empty() && name.back() != ' ')
-        name += ' ';
-    }
-    while (!name.empty() && name.back() == ' ') name.pop_back();
     ++counts[name];
   }
   return counts;
@@ -51,11 +53,11 @@ const std::set<std::string> taken{"NODE",
                                   "MATERIAL",
                                   "ELASTIC",
                                   "DENSITY",
-                                  "BEAM SECTION",
-                                  "SHELL SECTION",
+                                  "BEAMSECTION",
+                                  "SHELLSECTION",
                                   "MASS",
                                   "SPRING",
-                                  "RIGID BODY",
+                                  "RIGIDBODY",
                                   "COUPLING",
                                   "KINEMATIC",
                                   "DISTRIBUTING",
@@ -64,14 +66,14 @@ const std::set<std::string> taken{"NODE",
                                   "BOUNDARY",
                                   "HEADING",
                                   "SURFACE",
-                                  "SOLID SECTION",
-                                  "FLUID SECTION",
-                                  "MEMBRANE SECTION",
+                                  "SOLIDSECTION",
+                                  "FLUIDSECTION",
+                                  "MEMBRANESECTION",
                                   "INCLUDE",
-                                  "ROTARY INERTIA",
-                                  "GASKET SECTION",
-                                  "SURFACE SECTION",
-                                  "BEAM GENERAL SECTION"};
+                                  "ROTARYINERTIA",
+                                  "GASKETSECTION",
+                                  "SURFACESECTION",
+                                  "BEAMGENERALSECTION"};
 
 }  // namespace
 
@@ -91,7 +93,7 @@ TEST(CalculixDecks, EveryKeywordIsReadOrNamedAndCounted) {
     }
     ++read;
     std::map<std::string, long> losses;
-    for (const fem::Loss& loss : deck.model.losses) losses[loss.name] += loss.count;
+    for (const fem::Loss& loss : deck.model.losses) losses[without_blanks(loss.name)] += loss.count;
     for (const auto& [keyword, count] : keywords(entry.path()))
       if (!taken.contains(keyword)) {
         EXPECT_EQ(losses["*" + keyword], count) << entry.path() << ": *" << keyword;

@@ -92,7 +92,13 @@ TEST(CalculixFrequencies, APlateWhoseEdgeIsARigidBody) {
   for (int j = 0; j <= 2 * n; ++j) edge += fmt::format("{},\n", j * (2 * n + 1) + 2 * n + 1);
   edge += "*RIGID BODY, NSET=EDGE, REF NODE=9000, ROT NODE=9001\n*BOUNDARY\n9001,1,3\n";
   std::string deck = plate(n, "MATERIAL=STEEL\n.01");
-  compare(TemporaryFolder(), deck.insert(deck.find("*STEP"), edge), 2e-2);
+  deck.insert(deck.find("*STEP"), edge);
+  compare(TemporaryFolder(), deck, 2e-2);
+  for (const std::string words : {"RIGID BODY", "REF NODE", "SHELL SECTION", "END STEP"}) {  // both read these so, too
+    const std::string word = words.substr(0, words.find(' ')) + words.substr(words.find(' ') + 1);
+    deck.replace(deck.find(words), words.size(), word);
+  }
+  compare(TemporaryFolder(), deck, 2e-2);
 }
 
 // Three layers of a lamina across, along and at 30°, unsymmetric, with a density of their own each.
