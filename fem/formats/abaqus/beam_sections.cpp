@@ -87,7 +87,9 @@ DraftBeamSection beam_section(const Block& block, double nu) {
     return out;
   }
   if (shape == "RECT") {
-    out.section = rectangle(line.positive(0, "a"), line.positive(1, "b"), nu);
+    const double a = line.positive(0, "a");
+    out.section =
+        rectangle(a, line.at(1).empty() ? a : line.positive(1, "b"), nu);  // one number, a square: CalculiX, run
   } else if (shape == "CIRC" && line.at(1).empty()) {
     out.section = circle(line.positive(0, "the radius"), nu);
     out.one_number = true;

@@ -170,7 +170,7 @@ std::vector<Case> section_cases() {
       lines("beam section of an unknown shape", boom + beam_section + "STAR\n0.1, 0.1\n0, 1, 0\n", {"SECTION=STAR"},
             {{18, 0}}),
       lines("beam section without sizes", boom + beam_section + "RECT\n", {"has no data line"}, {{18, 0}}),
-      lines("rectangle of one side", boom + beam_section + "RECT\n0.1\n0, 1, 0\n", {"found nothing, expected b"},
+      lines("rectangle of no side", boom + beam_section + "RECT\n, 0.1\n0, 1, 0\n", {"found nothing, expected a"},
             {{19, 0}}),
       lines("rectangle of a side of zero", boom + beam_section + "RECT\n0.1, 0\n0, 1, 0\n", {"'0'", "expected b"},
             {{19, 6}}),

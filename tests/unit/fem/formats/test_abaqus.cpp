@@ -166,7 +166,7 @@ TEST_F(Abaqus, SecondOrderElementsAreSplitWithANotice) {
   EXPECT_NEAR(geometric_mass_properties(deck.model).mass, 2700.0 * (4.0 * .01 + pipe), 1e-9);
 }
 
-TEST_F(Abaqus, RoundSectionsOfBothPrograms) {
+TEST_F(Abaqus, RoundAndSquareSectionsOfBothPrograms) {
   const auto area = [&](const std::string& data) {
     std::string text = cantilever;
     text.replace(text.find("SECTION=RECT\n0.02, 0.03"), 23, "SECTION=CIRC\n" + data);
@@ -174,6 +174,9 @@ TEST_F(Abaqus, RoundSectionsOfBothPrograms) {
   };
   EXPECT_DOUBLE_EQ(area("0.05"), std::numbers::pi * 0.05 * 0.05);          // a radius
   EXPECT_DOUBLE_EQ(area("0.05, 0.05"), std::numbers::pi * 0.025 * 0.025);  // two diameters
+  std::string text = cantilever;
+  text.replace(text.find("0.02, 0.03"), 10, "0.02");
+  EXPECT_DOUBLE_EQ(read(text).model.beam_sections[0].A, 4e-4) << "a square";
 }
 
 TEST_F(Abaqus, AnISectionOffItsNodes) {
@@ -382,7 +385,7 @@ TEST_F(Abaqus, FaultsAreSaidWithTheirPlace) {
   refused(with("MATERIAL=STEEL", "MATERIAL=STEAL"), "deck.inp:19", "Did you mean 'STEEL'");
   refused(with("2.1D11, 0.3", "-1, 0.3"), "deck.inp:16:1", "above zero");
   refused(with("2.1D11, 0.3", "1e9, 0.7"), "deck.inp:16", "Poisson");
-  refused(with("0.02, 0.03", "0.02"), "deck.inp:20", "expected b");
+  refused(with("0.02, 0.03", ", 0.03"), "deck.inp:20", "expected a");
   refused(with("0., 1., 0.", "1., 0., 0."), "deck.inp:19", "lies along it");
   refused(with("1, 1, 6", "9, 1, 6"), "deck.inp:25:1", "node 9 is not defined");
   refused(with("1, 1, 6", "root, 1, 6"), "deck.inp:25:1", "there is no node set 'root'");
