@@ -36,7 +36,7 @@ struct Type {
 };
 
 /// vtkIdType is written as int, whatever it is in memory.
-constexpr std::array<Type, 13> types{{{"UNSIGNED_CHAR", "UInt8", 1},
+constexpr std::array<Type, 14> types{{{"UNSIGNED_CHAR", "UInt8", 1},
                                       {"CHAR", "Int8", 1},
                                       {"UNSIGNED_SHORT", "UInt16", 2},
                                       {"SHORT", "Int16", 2},
@@ -48,7 +48,8 @@ constexpr std::array<Type, 13> types{{{"UNSIGNED_CHAR", "UInt8", 1},
                                       {"DOUBLE", "Float64", 8},
                                       {"VTKIDTYPE", "Int32", 4},
                                       {"VTKTYPEINT64", "Int64", 8},
-                                      {"VTKTYPEUINT64", "UInt64", 8}}};
+                                      {"VTKTYPEUINT64", "UInt64", 8},
+                                      {"SIGNED_CHAR", "Int8", 1}}};
 
 /// Names are written with %20 for a blank.
 std::string decoded(std::string_view name) {

@@ -25,7 +25,12 @@ InterfaceCards::InterfaceCards(const std::filesystem::path& path) : text(nastran
 }
 
 void InterfaceCards::finish(MatrixData& data) {
-  for (const char* name : {"ASET", "ASET1", "BSET", "BSET1", "QSET", "QSET1", "SEBULK"}) draft.take(name);
+  for (const char* name : {"ASET", "ASET1", "BSET", "BSET1", "QSET", "QSET1"}) draft.take(name);
+  for (const nastran::Card& card : draft.take("SEBULK"))
+    if (const std::string type = nastran::upper(card.at(2)); type == "MIRROR" || type == "IDENTCAL")
+      card.refuse(
+          2, fmt::format("TYPE {} makes the superelement from another one, which is not read", type),
+          "Give the description and matrices of that one, and place a mirrored body in the scene by its own run");
   nastran::classify_rest(draft);
   draft.losses.refuse_physical();
   for (const Loss& loss : draft.losses.losses()) data.losses.push_back(loss);

@@ -118,6 +118,8 @@ TEST(ReadVtk, KeepsCellsDataAndSetsOfTheOldLayout) {
   EXPECT_THAT(mesh.cells[0].nodes, ElementsAre(0, 1, 3, 2)) << "a pixel counts along the axes";
   EXPECT_THAT(mesh.cells[1].nodes, ElementsAre(3, 4));
   EXPECT_THAT(mesh.cell_sets.at("part_9"), ElementsAre(ElementsAre(), ElementsAre(0)));
+  const Mesh bytes = parse_vtk(changed(old_text, "part int", "part signed_char"), "a.vtk");
+  EXPECT_THAT(bytes.cell_sets.at("part_9"), ElementsAre(ElementsAre(), ElementsAre(0)));
   EXPECT_EQ(mesh.cell_data.at("my stress")[1], Eigen::MatrixXd(Eigen::RowVector3d(4, 5, 6)));
   EXPECT_EQ(mesh.point_data.at("u").row(4), Eigen::RowVector3d(0, 0, 4));
   EXPECT_EQ(mesh.point_data.at("T")(4, 0), 5.0);
