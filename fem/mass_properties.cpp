@@ -79,6 +79,8 @@ void add(const Model& model, const Quad4& quad, Moments& sum) {
   const ShellTheory theory = theory_of(model, quad);
   std::array<Vec3, 4> x;
   for (std::size_t i = 0; i < 4; ++i) x[i] = model.nodes[static_cast<std::size_t>(quad.nodes[i])];
+  const Vec3 centre = 0.25 * (x[0] + x[1] + x[2] + x[3]), normal = (x[2] - x[0]).cross(x[3] - x[1]).normalized();
+  for (Vec3& corner : x) corner -= normal.dot(corner - centre) * normal;  // a warped quad lies in its mean plane
   constexpr std::array<double, 3> at{-0.7745966692414834, 0.0, 0.7745966692414834},
       weight{5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
   for (std::size_t i = 0; i < 3; ++i)

@@ -89,8 +89,8 @@ struct MassProperties {
 
 /// From RᵀMR.
 MassProperties mass_properties(const Structure& structure);
-/// From volumes, areas, lengths and densities alone: an independent check of the former. Parts given as matrices have
-/// none of these: ModelError.
+/// From volumes, areas, lengths and densities alone, warped quads in their mean planes: an independent check of the
+/// former. Parts given as matrices have none of these: ModelError.
 MassProperties geometric_mass_properties(const Model& model);
 
 }  // namespace tenon::fem

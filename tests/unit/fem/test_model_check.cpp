@@ -9,6 +9,7 @@
 #include "fem/checks/cells.hpp"
 #include "fem/error.hpp"
 #include "fem/model_check.hpp"
+#include "fem/structure.hpp"
 
 using namespace tenon;
 using namespace tenon::fem;
@@ -151,6 +152,20 @@ TEST(ModelCheck, DuplicatesWithAndWithoutTheSameProperties) {
   findings = check_geometry(model);
   EXPECT_FALSE(found(findings, "duplicate_elements"));
   EXPECT_TRUE(found(findings, "elements_on_same_nodes"));
+}
+
+// z = x y / 2 in warped quads, of which each is as large as its mean plane: half the product of its diagonals.
+TEST(ModelCheck, WarpedQuadsKeepTheirMass) {
+  Model model = plate(6);
+  for (Vec3& x : model.nodes) x.z() = 0.5 * x.x() * x.y();
+  double area = 0.0;
+  for (const Element& element : model.elements) {
+    const auto& n = std::get<Quad4>(element).nodes;
+    const auto at = [&](std::size_t i) { return model.nodes[static_cast<std::size_t>(n[i])]; };
+    area += 0.5 * (at(2) - at(0)).cross(at(3) - at(1)).norm();
+  }
+  EXPECT_NEAR(geometric_mass_properties(model).mass, 7800.0 * 0.01 * area, 1e-12 * area * 78.0);
+  for (const Finding& finding : check_model(model)) EXPECT_EQ(finding.severity, Severity::note) << finding.what;
 }
 
 TEST(ModelCheck, NormalsAndJunctions) {
