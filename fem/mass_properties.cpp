@@ -115,8 +115,9 @@ void add(const Model& model, const Rod& rod, Moments& sum) {
   const Vec3& a = model.nodes[static_cast<std::size_t>(rod.nodes[0])];
   const Vec3 along = model.nodes[static_cast<std::size_t>(rod.nodes[1])] - a;
   const double length = along.norm(), mass = (material.rho * section.A + section.nsm) * length;
-  const double gauss = 0.5 / std::sqrt(3.0);
-  for (const double s : {0.5 - gauss, 0.5 + gauss}) sum.add_point(0.5 * mass, a + s * along);
+  const double apart =
+      rod.mass == BeamMass::nastran ? 0.5 : 0.5 / std::sqrt(3.0);  // Nastran's rods bear it at their ends
+  for (const double s : {0.5 - apart, 0.5 + apart}) sum.add_point(0.5 * mass, a + s * along);
   if (rod.mass != BeamMass::nastran)
     sum.rotary += material.rho * (section.Iy + section.Iz) / length * along * along.transpose();
 }

@@ -153,6 +153,23 @@ TEST(Assemble, MassFromMatrixEqualsMassFromGeometry) {
   EXPECT_LT((m.inertia - g.inertia).norm(), 1e-11 * g.inertia.norm());
 }
 
+// Six bars of a tetrahedron: spread along them, or at their ends as in Nastran's coupled mass.
+TEST(Assemble, MassOfRodsEqualsMassFromGeometry) {
+  for (const BeamMass kind : {BeamMass::high_order, BeamMass::consistent, BeamMass::nastran}) {
+    Model model;
+    model.nodes = {Vec3(0, 0, 0), Vec3(1, 0.2, 0), Vec3(0.3, 1.5, 0), Vec3(0.4, 0.1, 2)};
+    model.node_ids = {1, 2, 3, 4};
+    model.materials.push_back({"steel", 2.1e11, 2.1e11 / 2.6, 0.3, 7800.0});
+    model.beam_sections.push_back({.name = "bar", .A = 1e-4});
+    for (int a = 0; a < 4; ++a)
+      for (int b = 0; b < a; ++b) model.elements.push_back(Rod{.nodes = {a, b}, .mass = kind, .id = 4 * a + b});
+    const MassProperties m = mass_properties(assemble(model)), g = geometric_mass_properties(model);
+    EXPECT_NEAR(m.mass, g.mass, 1e-14 * g.mass);
+    EXPECT_LT((m.centre - g.centre).norm(), 1e-14);
+    EXPECT_LT((m.inertia - g.inertia).norm(), 1e-13 * g.inertia.norm());
+  }
+}
+
 TEST(Assemble, ResultDoesNotDependOnTheNumberingOfElements) {
   Model model = random_frame(4);
   const Structure a = assemble(model);
