@@ -66,9 +66,9 @@ void check_curvature(const Model& model, const CheckLimits& limits, std::vector<
                  .what = "skew shells too large for their curvature and thickness: area over radius times thickness",
                  .value = worst,
                  .limit = limits.curvature,
-                 .cure = fmt::format("Mesh {:.2g} times finer there, or with lines along and across the curvature: "
+                 .cure = fmt::format("Mesh {:.1f} times finer there, or with lines along and across the curvature: "
                                      "deflections and frequencies are several per cent off, or more",
-                                     std::sqrt(worst / limits.curvature))},
+                                     std::ceil(10.0 * std::sqrt(worst / limits.curvature)) / 10.0)},
                 limits.listed);
 }
 
