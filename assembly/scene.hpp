@@ -51,7 +51,7 @@ struct SceneSection {
   Place place;
 };
 
-/// A set that the scene names; "everywhere": all cells that no section names.
+/// A set that the scene names; "everywhere": all lines and surfaces that no section names.
 struct SceneSet {
   std::string name;
   Place place;

@@ -287,7 +287,7 @@ Cover cover_cells(const Mesh& mesh, const SceneBody& body, const FeSource& fe) {
       if (cover[b][k] >= 0 || left_out[b][k]) continue;
       if (any) cover[b][k] = static_cast<int>(everywhere - fe.sections.begin());
       doubtful[k] = any && used[b][k];
-      uncovered[k] = !any && !used[b][k] && !ignored.contains("everywhere");
+      uncovered[k] = !any && !used[b][k] && (dimension == 3 || !ignored.contains("everywhere"));
     }
     if (std::ranges::count(doubtful, true) > 0) refuse_doubtful(mesh, body, doubtful, b);
     if (std::ranges::count(uncovered, true) > 0) refuse_uncovered(mesh, body, uncovered, b);

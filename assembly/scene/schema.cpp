@@ -149,24 +149,25 @@ const Schema node_masses{"masses", {}, &one_node_mass};
 const Schema node_springs{"springs", {}, &one_node_spring};
 const Schema supports{"supports", {}, &one_support};
 
-const Schema body{"a body",
-                  {{"rigid", map, "a rigid body", false, &rigid},
-                   {"fe", scalar, "a mesh (.msh, .inp, .vtu, .vtk) or deck (.bdf, .dat, .inp), relative to the scene"},
-                   {"matrices", map, "K and M of another program", false, &matrices},
-                   {"reduced", scalar, "a *.body.json file, or the .f06 of a clamped modal run, its deck beside it"},
-                   {"beam", map, "a straight beam without a mesh", false, &beam},
-                   {"material", scalar | map, "of every section without one of its own", false, &material},
-                   {"sections", map, "set of cells -> section", false, &sections},
-                   {"beam_mass", scalar, "high-order (default), consistent or nastran"},
-                   {"fix", map, "set -> directions held, e.g. [x, y, rz], or all", false, &supports},
-                   {"masses", map, "lumped masses on nodes", false, &node_masses},
-                   {"springs", map, "between two nodes, or from one to ground", false, &node_springs},
-                   {"ignore", list, "sets whose cells carry no structure, or everywhere: all that no section names"},
-                   {"allow", list, "cards of the file that may be read past although they carry stiffness or mass"},
-                   {"ports", map, "where the body can be joined", false, &ports},
-                   {"parent_port", scalar, "the port the body hangs by"},
-                   {"damping", scalar, "damping ratio of every mode"},
-                   {"reduction", scalar | map, "auto (default), rigid, or how to reduce", false, &reduction}}};
+const Schema body{
+    "a body",
+    {{"rigid", map, "a rigid body", false, &rigid},
+     {"fe", scalar, "a mesh (.msh, .inp, .vtu, .vtk) or deck (.bdf, .dat, .inp), relative to the scene"},
+     {"matrices", map, "K and M of another program", false, &matrices},
+     {"reduced", scalar, "a *.body.json file, or the .f06 of a clamped modal run, its deck beside it"},
+     {"beam", map, "a straight beam without a mesh", false, &beam},
+     {"material", scalar | map, "of every section without one of its own", false, &material},
+     {"sections", map, "set of cells -> section", false, &sections},
+     {"beam_mass", scalar, "high-order (default), consistent or nastran"},
+     {"fix", map, "set -> directions held, e.g. [x, y, rz], or all", false, &supports},
+     {"masses", map, "lumped masses on nodes", false, &node_masses},
+     {"springs", map, "between two nodes, or from one to ground", false, &node_springs},
+     {"ignore", list, "sets whose cells carry no structure, or everywhere: all but solids that no section names"},
+     {"allow", list, "cards of the file that may be read past although they carry stiffness or mass"},
+     {"ports", map, "where the body can be joined", false, &ports},
+     {"parent_port", scalar, "the port the body hangs by"},
+     {"damping", scalar, "damping ratio of every mode"},
+     {"reduction", scalar | map, "auto (default), rigid, or how to reduce", false, &reduction}}};
 
 const Schema joint{"a joint",
                    {{"parent", scalar, "body.port", true},

@@ -10,39 +10,12 @@
 #include "fem/formats/deck.hpp"
 #include "fem/formats/read_mesh.hpp"
 #include "interfaces/cli/commands.hpp"
+#include "interfaces/cli/init_sections.hpp"
 #include "interfaces/cli/input.hpp"
 #include "interfaces/cli/output.hpp"
 
 namespace tenon::cli {
 namespace {
-
-/// The highest dimension of a set's cells, 0 for points alone.
-int dimension_of(const fem::Mesh& mesh, const std::vector<std::vector<int>>& blocks) {
-  int dimension = 0;
-  for (std::size_t b = 0; b < blocks.size(); ++b)
-    if (!blocks[b].empty()) dimension = std::max(dimension, fem::dimension(mesh.cells[b].type));
-  return dimension;
-}
-
-/// Letters and digits that mean themselves: `null` and its like would not.
-bool is_plain(const std::string& name) {
-  static const std::set<std::string> words{"null", "true", "false", "yes", "no", "on", "off", "y", "n"};
-  std::string lower;
-  for (const unsigned char c : name) lower += static_cast<char>(std::tolower(c));
-  return !name.empty() && std::isalpha(static_cast<unsigned char>(name.front())) && !words.contains(lower) &&
-         std::ranges::all_of(name, [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; });
-}
-
-/// A name of the file as a value or key of the scene. Throws InputError for one that is no UTF-8, as scenes are.
-std::string quoted(const std::string& name, const std::filesystem::path& file) {
-  if (is_plain(name)) return name;
-  try {
-    return Json(name).dump();
-  } catch (const Json::exception&) {
-    throw InputError({file.string()}, fmt::format("the name '{}' is no UTF-8 text, as a scene is", name),
-                     "Rename it in letters without accents, or save the file as UTF-8");
-  }
-}
 
 /// A name that the scene's words can point at.
 std::string as_word(std::string name) {
@@ -57,49 +30,6 @@ std::string new_word(const std::string& name, std::set<std::string>& taken) {
   std::string word = as_word(name);
   while (!taken.insert(word).second) word += "_";
   return word;
-}
-
-constexpr const char* shell_words = "{shell: THICKNESS}";
-constexpr const char* beam_words =
-    "{tube: [OUTER, INNER]}  # radii; or circle, rectangle, box, i, channel, general; move to `ignore` if it is no "
-    "structure";
-
-/// Sets of surfaces that hold lines as well, such as their edges.
-std::string ignored_lines(const fem::Mesh& mesh, const std::filesystem::path& file) {
-  std::vector<std::string> names;
-  for (const auto& [set, blocks] : mesh.cell_sets) {
-    if (dimension_of(mesh, blocks) != 2) continue;
-    for (std::size_t b = 0; b < blocks.size(); ++b)
-      if (!blocks[b].empty() && fem::dimension(mesh.cells[b].type) == 1) {
-        names.push_back(quoted(set, file));
-        break;
-      }
-  }
-  if (names.empty()) return {};
-  return fmt::format("    ignore: [{}]  # their lines; the surfaces have sections above\n", fmt::join(names, ", "));
-}
-
-std::string section_lines(const fem::Mesh& mesh, const std::filesystem::path& file) {
-  std::string text;
-  for (const auto& [set, blocks] : mesh.cell_sets) {
-    const int dimension = dimension_of(mesh, blocks);
-    if (dimension == 2) text += fmt::format("      {}: {}\n", quoted(set, file), shell_words);
-    if (dimension == 1) text += fmt::format("      {}: {}\n", quoted(set, file), beam_words);
-  }
-  if (!text.empty()) return text + ignored_lines(mesh, file);
-  int highest = 0;
-  for (const fem::CellBlock& block : mesh.cells)
-    if (const int d = fem::dimension(block.type); d < 3 && block.size() > 0) highest = std::max(highest, d);
-  if (highest == 0)
-    throw InputError({file.string()}, "holds neither lines nor surfaces, which beams and shells are made of",
-                     "A part of solids comes in by the K and M of the program that owns it: `matrices:` of a scene");
-  const bool lines = std::ranges::any_of(
-      mesh.cells, [](const fem::CellBlock& block) { return fem::dimension(block.type) == 1 && block.size() > 0; });
-  return fmt::format("      everywhere: {}\n{}", highest == 2 ? shell_words : beam_words,
-                     highest == 2 && lines
-                         ? "    ignore: [everywhere]        # the lines of the mesh, in no set: name those "
-                           "that are beams in the mesh\n"
-                         : "");
 }
 
 /// Points of which the deck holds a direction: no joint can take them.

@@ -324,7 +324,14 @@ TEST_F(Cli, InitWritesScenesForEveryFormat) {
       "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 1 \"skin\"\n1 2 \"skin\"\n$EndPhysicalNames\n"
       "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n"
       "$Elements\n2\n1 3 2 1 1 1 2 3 4\n2 1 2 2 2 4 1\n$EndElements\n");
-  EXPECT_THAT(check("both.msh"), AllOf(HasSubstr("skin: {shell"), HasSubstr("    ignore: [skin]  ")));
+  EXPECT_THAT(check("both.msh"), AllOf(HasSubstr("skin: {shell"), HasSubstr("    ignore: [everywhere]  ")));
+  folder_.write("twice.vtk",  // sets of each part and of parts together
+                "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 6 double\n"
+                "0 0 0 1 0 0 1 1 0 0 1 0 2 0 0 2 1 0\nCELLS 2 10\n4 0 1 2 3\n4 1 4 5 2\nCELL_TYPES 2\n9\n9\n"
+                "CELL_DATA 2\nSCALARS part int 1\nLOOKUP_TABLE default\n1\n2\nSCALARS skin int 1\n"
+                "LOOKUP_TABLE default\n7\n7\n");
+  EXPECT_THAT(check("twice.vtk"),
+              AllOf(HasSubstr("      skin_7: {shell"), HasSubstr("      # part_1: shares cells with skin_7\n")));
   folder_.write("alike.msh",
                 "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n4\n2 1 \"skin\"\n1 2 \"rim a\"\n"
                 "1 3 \"rim_a\"\n1 4 \"root\"\n$EndPhysicalNames\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n"
