@@ -331,7 +331,7 @@ Modes solve_modes(const fem::SparseMatrix& K, const fem::SparseMatrix& M, const 
                   const ModesOptions& options) {
   require_sizes(K, M, rigid);
   if (options.progress) options.progress(0.0, "factorisation");
-  const Eigen::MatrixXd moving = null_motions(K, M, rigid, options.rounding);
+  const Eigen::MatrixXd moving = null_motions(K, M, rigid, options.rounding, options.row_name);
   Count count;
   const ShiftedFactor at = choose_shift(K, M, moving, options.row_name, [&](const Factor& ordered) {
     if (options.certify || options.band) count.prepare(K, M, ordered);

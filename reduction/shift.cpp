@@ -36,7 +36,7 @@ double least_diagonal_ratio(const fem::SparseMatrix& K, const fem::SparseMatrix&
 std::string name_of(const RowName& row_name, int row) { return row_name ? row_name(row) : fmt::format("row {}", row); }
 
 Eigen::MatrixXd null_motions(const fem::SparseMatrix& K, const fem::SparseMatrix& M, const Eigen::MatrixXd& candidates,
-                             double rounding) {
+                             double rounding, const RowName& row_name) {
   const Eigen::Index n = K.rows();
   if (candidates.cols() == 0 || n == 0) return Eigen::MatrixXd(n, 0);
   // candidates in the norm of diag(K): singular vectors of D^{-1/2} K R, smallest values first, are tested one by one
@@ -67,9 +67,15 @@ Eigen::MatrixXd null_motions(const fem::SparseMatrix& K, const fem::SparseMatrix
     if (pass == 0) found = (found * scale.asDiagonal()).eval();
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> gram(found.transpose() * symmetric_product(M, found));
     const double least = gram.eigenvalues()[0], most = gram.eigenvalues()[found.cols() - 1];
-    if (!(least > 1e-14 * most))
-      throw ModelError("a rigid motion of the structure carries no mass",
-                       "Give it mass (density, point masses) or supports; a free body of zero mass has no modes");
+    if (!(least > 1e-14 * most)) {
+      Eigen::Index row = 0;
+      (found * gram.eigenvectors().col(0)).cwiseAbs().maxCoeff(&row);
+      throw ModelError(
+          fmt::format("a rigid motion of the structure, of {} most, carries no mass",
+                      name_of(row_name, static_cast<int>(row))),
+          "Give it mass (density, point masses, inertia of a straight bar about itself) or supports: it has "
+          "no frequency");
+    }
     found = (found * gram.eigenvectors() * gram.eigenvalues().cwiseSqrt().cwiseInverse().asDiagonal()).eval();
   }
   return found;

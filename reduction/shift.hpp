@@ -14,7 +14,7 @@ namespace tenon::reduction {
 /// every row of K r stays below `rounding` (Structure::rounding) of what cancels in it. Throws ModelError when such a
 /// motion carries no mass either.
 Eigen::MatrixXd null_motions(const fem::SparseMatrix& K, const fem::SparseMatrix& M, const Eigen::MatrixXd& candidates,
-                             double rounding);
+                             double rounding, const RowName& row_name = {});
 
 /// Smallest λ that can be told from zero with the shape x: rounding errors of xᵀKx / xᵀMx.
 double lambda_noise(const fem::SparseMatrix& K, const Eigen::VectorXd& x, double modal_mass);
