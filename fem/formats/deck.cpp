@@ -5,11 +5,20 @@
 #include "fem/formats/nastran.hpp"
 
 namespace tenon::fem {
+namespace {
+
+/// A name without a file, in a scene that is only being read, is taken at its word.
+bool gives_sections(const std::filesystem::path& file) {
+  std::error_code error;
+  return !std::filesystem::is_regular_file(file, error) || nastran_gives_sections(file);
+}
+
+}  // namespace
 
 bool is_deck(const std::filesystem::path& file) {
   const std::string extension = lower_extension(file);
   if (extension == ".inp") return abaqus_gives_sections(file);
-  return extension == ".bdf" || extension == ".dat" || extension == ".nas" || extension == ".blk";
+  return is_nastran(extension) && gives_sections(file);
 }
 
 Deck read_deck(const std::filesystem::path& file, bool allow_losses) {

@@ -14,8 +14,8 @@ struct Deck {
   bool auto_spc = false;     ///< its own program holds what has no stiffness (NastranDeck)
 };
 
-/// Nastran bulk data by its extension (.bdf, .dat, .nas, .blk); an .inp file that gives its elements sections. An .inp
-/// file without any is a mesh. @throws InputError when an .inp file cannot be read
+/// An .inp file that gives its elements sections, Nastran bulk data (.bdf, .dat, .nas, .blk) that gives properties or
+/// anything beside grids and elements. Without, they are meshes. @throws InputError when an .inp file cannot be read
 bool is_deck(const std::filesystem::path& file);
 
 /// Reads it by read_nastran or read_abaqus. @param allow_losses  read on past what would change stiffness or mass

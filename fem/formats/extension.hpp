@@ -14,4 +14,10 @@ inline std::string lower_extension(const std::filesystem::path& path) {
   return extension;
 }
 
+/// Nastran bulk data by its extension.
+inline bool is_nastran(const std::string& lower_extension) {
+  return lower_extension == ".bdf" || lower_extension == ".dat" || lower_extension == ".nas" ||
+         lower_extension == ".blk";
+}
+
 }  // namespace tenon::fem

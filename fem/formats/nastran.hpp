@@ -79,4 +79,12 @@ struct NastranDeck {
 /// Source: the cards' definitions in the Quick Reference Guides of MSC and NX Nastran.
 NastranDeck read_nastran(const std::filesystem::path& path, const NastranOptions& options = {});
 
+/// False for a file of grids, coordinate systems and elements alone, as mesh generators write it: it names properties
+/// but gives none, so it is a mesh. Whatever else it says, an INCLUDE too, makes it a deck.
+bool nastran_gives_sections(const std::filesystem::path& path);
+
+/// The grids and cells of such a file, in its unit of length and in the basic frame; the cells of property 4 are the
+/// set "property 4". Solids, offsets, pin flags, PS of GRID are losses that change stiffness. Throws as read_nastran.
+Mesh read_nastran_mesh(const std::filesystem::path& path);
+
 }  // namespace tenon::fem

@@ -9,6 +9,7 @@
 #include "fem/formats/abaqus.hpp"
 #include "fem/formats/extension.hpp"
 #include "fem/formats/gmsh.hpp"
+#include "fem/formats/nastran.hpp"
 #include "fem/formats/read_med.hpp"
 #include "fem/formats/read_vtk.hpp"
 #include "fem/formats/read_vtu.hpp"
@@ -37,13 +38,15 @@ Mesh read_mesh(const std::filesystem::path& path) {
   if (extension == ".vtk") return read_vtk(path);
   if (extension == ".xdmf" || extension == ".xmf") return read_xdmf(path);
   if (extension == ".med" || extension == ".mmed" || extension == ".rmed") return read_med(path);
-  const bool deck = extension == ".bdf" || extension == ".dat" || extension == ".nas";
+  if (is_nastran(extension) && !nastran_gives_sections(path)) return read_nastran_mesh(path);
   throw InputError(
       {path.string()}, fmt::format("'{}' is not a mesh format that is read here", extension),
-      deck ? "A Nastran deck is a whole model with its own sections, not a mesh: give it where a deck is asked for"
-           : "Give a Gmsh mesh (.msh, version 2.2 or 4.1), an Abaqus one (.inp), a VTK grid (.vtu, .vtk), an XDMF "
-             "(.xdmf) "
-             "or a MED one (.med); gmsh converts others: gmsh in.unv -save -format msh41 -o out.msh");
+      is_nastran(extension)
+          ? "A Nastran deck is a whole model with its own sections, not a mesh: give it where a deck is asked for"
+          : "Give a Gmsh mesh (.msh, version 2.2 or 4.1), an Abaqus one (.inp), Nastran's grids and elements (.bdf), a "
+            "VTK "
+            "grid (.vtu, .vtk), an XDMF (.xdmf) or a MED one (.med); gmsh converts others: gmsh in.unv -save -format "
+            "msh41 -o out.msh");
 }
 
 }  // namespace tenon::fem

@@ -260,7 +260,7 @@ void read(const fs::path& file) {
     assembly::read_scene(file);
   else if (extension == ".inp")
     fem::read_deck(file, true);
-  else if (file.extension() == ".bdf")
+  else if (file.extension() == ".bdf" && fem::nastran_gives_sections(file))
     fem::read_nastran(file);
   else
     fem::read_mesh(file);

@@ -16,10 +16,10 @@ class ElementCells {
   static constexpr std::array<CellType, 6> types{CellType::line,   CellType::quad,  CellType::triangle,
                                                  CellType::vertex, CellType::quad8, CellType::triangle6};
 
-  /// @param block  of `types`  @param id  of the element  @param set  the name of its property
+  /// @param block  of `types`  @param id  of the element  @param set  the name of its property, empty: none
   template <class Nodes>
   void add(std::size_t block, const Nodes& nodes, long id, const std::string& set) {
-    sets_[set][block].push_back(static_cast<int>(blocks_[block].ids.size()));
+    if (!set.empty()) sets_[set][block].push_back(static_cast<int>(blocks_[block].ids.size()));
     blocks_[block].nodes.insert(blocks_[block].nodes.end(), nodes.begin(), nodes.end());
     blocks_[block].ids.push_back(id);
   }

@@ -18,6 +18,7 @@ except ImportError:
 ABAQUS = ["line", "triangle", "triangle6", "quad", "quad8", "quad9", "tetra", "tetra10", "hexahedron", "hexahedron20",
           "wedge", "wedge15"]
 MED = ["vertex", "quad", "quad8", "line", "line3", "triangle", "triangle6"]  # it does not turn solids as MED does
+NASTRAN = ["line", "quad", "triangle", "quad8", "triangle6"]  # in the order in which tenon keeps its blocks
 FORMATS = {
     "vtu-ascii": ("vtu", dict(binary=False), 11),
     "vtu-zlib": ("vtu", dict(binary=True), 17),
@@ -36,9 +37,10 @@ FORMATS = {
     "xdmf-binary": ("xdmf", dict(data_format="Binary"), 17),
     "xdmf-hdf": ("xdmf", dict(data_format="HDF"), 17),
     "med": ("med", dict(), 17),
+    "nastran": ("nastran", dict(), 15),
 }
 ENDINGS = {"vtu": "vtu", "vtk42": "vtk", "vtk51": "vtk", "gmsh22": "msh", "gmsh": "msh", "abaqus": "inp", "xdmf": "xdmf",
-           "med": "med"}
+           "med": "med", "nastran": "bdf"}
 
 
 def random_mesh(rng, types, cell_numbers, one_type):
@@ -82,10 +84,12 @@ def main():
     rng = np.random.default_rng(20170401)
     for k in range(count):
         for name, (kind, options, digits) in FORMATS.items():
-            types = dict(abaqus=[t for t in ABAQUS if t in WIDTHS], med=MED).get(kind, list(WIDTHS))
+            types = dict(abaqus=[t for t in ABAQUS if t in WIDTHS], med=MED, nastran=NASTRAN).get(kind, list(WIDTHS))
             if kind.startswith("gmsh"):
                 types.remove("wedge18")  # which meshio 5.0 writes in VTK's order
             mesh = random_mesh(rng, types, kind.startswith("vt") or kind in ("xdmf", "med"), kind == "gmsh")
+            if kind == "nastran":  # what sixteen columns hold: meshio stops at some numbers of more digits
+                mesh.points = np.vectorize(lambda x: float(f"{x:.7g}"))(mesh.points)
             stem = f"{folder}/{name}-{k}"
             write_truth(f"{stem}.truth", mesh, digits)
             meshio.write(f"{stem}.{ENDINGS[kind]}", mesh, file_format=kind, **options)

@@ -108,5 +108,5 @@ TEST(Meshio, WhatItWritesIsWhatWeRead) {
     compare(fem::read_mesh(entry.path()), read_truth(fs::path(entry.path()).replace_extension(".truth")));
     ++files;
   }
-  EXPECT_EQ(files, 425);
+  EXPECT_EQ(files, 450);
 }
