@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "fem/error.hpp"
 #include "fem/formats/atomic_file.hpp"
+#include "fem/formats/file_bytes.hpp"
 #include "reduction/geometric_stiffness.hpp"
 #include "reduction/matrix_rows.hpp"
 #include "reduction/shape_integrals.hpp"
@@ -150,9 +150,7 @@ ShapeIntegrals read_integrals(const Reader& r, Eigen::Index n) {
 Json stiffening_json(const GeometricStiffness& g) { return {{"K", to_json(g.K)}, {"spin", to_json(g.spin)}}; }
 
 Json parse(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw InputError({.file = path.string()}, "the file cannot be opened", "Check the path and its permissions");
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  const std::string text = fem::read_bytes(path);
   try {
     return Json::parse(text);
   } catch (const Json::parse_error& error) {
@@ -258,11 +256,9 @@ ReducedBody read_body(const std::filesystem::path& path) {
 }
 
 std::string file_hash(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw InputError({.file = path.string()}, "the file cannot be opened", "Check the path and its permissions");
+  const fem::MappedFile file(path);
   std::uint64_t hash = 0xcbf29ce484222325ull;
-  for (std::istreambuf_iterator<char> byte(in), end; byte != end; ++byte)
-    hash = (hash ^ static_cast<unsigned char>(*byte)) * 0x100000001b3ull;
+  for (const char byte : file.bytes()) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3ull;
   return fmt::format("fnv1a64:{:016x}", hash);
 }
 

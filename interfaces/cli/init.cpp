@@ -59,16 +59,20 @@ std::string free_point(const fem::Mesh& mesh, const std::vector<bool>& held) {
   return fmt::format("{{node: {}}}", mesh.point_ids[static_cast<std::size_t>(nearest)]);
 }
 
+/// Lines of a scene that name ports, and the word of the first.
+struct PortLines {
+  std::string text, first;
+};
+
 /// Sets of points as ports, small ones first; one that the deck holds, that shares points with those before, or that
 /// holds most of the mesh, is left as a comment. `names`: words that are taken, theirs too afterwards.
-std::string port_lines(const fem::Mesh& mesh, const std::vector<bool>& held, const std::filesystem::path& file,
-                       std::set<std::string>& names) {
+PortLines port_lines(const fem::Mesh& mesh, const std::vector<bool>& held, const std::filesystem::path& file,
+                     std::set<std::string>& names) {
   std::vector<std::pair<std::size_t, std::string>> sets;
   for (const auto& [set, points] : mesh.point_sets) sets.emplace_back(points.size(), set);
   std::ranges::sort(sets);
   std::vector<bool> taken(mesh.points.size(), false);
-  std::string text;
-  bool any = false;
+  PortLines ports;
   for (const auto& [size, set] : sets) {
     const std::vector<int>& points = mesh.point_sets.at(set);
     if (points.empty()) continue;
@@ -82,16 +86,18 @@ std::string port_lines(const fem::Mesh& mesh, const std::vector<bool>& held, con
       reason = "most of the points";
     else if (any_in(taken))
       reason = "shares points with a port above";
-    text += fmt::format("      {}{}: {{set: {}}}{}{}\n", reason ? "# " : "", quoted(new_word(set, names), file),
-                        quoted(set, file), reason ? "  # " : "", reason ? reason : "");
+    const std::string word = new_word(set, names);
+    ports.text += fmt::format("      {}{}: {{set: {}}}{}{}\n", reason ? "# " : "", quoted(word, file),
+                              quoted(set, file), reason ? "  # " : "", reason ? reason : "");
     if (reason) continue;
-    any = true;
+    if (ports.first.empty()) ports.first = word;
     for (const int p : points) taken[static_cast<std::size_t>(p)] = true;
   }
-  if (any) return text;
+  if (!ports.first.empty()) return ports;
   const bool any_held = std::ranges::find(held, true) != held.end();
-  return text + fmt::format("      {}: {}\n", new_word("root", names),
-                            any_held ? free_point(mesh, held) : "{nearest: [0, 0, 0]}");
+  ports.first = new_word("root", names);
+  ports.text += fmt::format("      {}: {}\n", ports.first, any_held ? free_point(mesh, held) : "{nearest: [0, 0, 0]}");
+  return ports;
 }
 
 /// Sets of lines along edges of shells, as comments: stiffeners, or where a shell is held or joined.
@@ -140,7 +146,7 @@ std::string deck_lines(const fem::Model& model, const std::filesystem::path& fil
 }
 
 /// What only the user knows stands in capitals; `tenon check` points at each until it is filled in.
-std::string scene_for(const fem::Mesh& mesh, const std::string& contents, const std::string& ports,
+std::string scene_for(const fem::Mesh& mesh, const std::string& contents, const PortLines& ports,
                       const std::filesystem::path& file, const std::filesystem::path& scene) {
   Eigen::AlignedBox3d box;
   for (const fem::Vec3& point : mesh.points) box.extend(point);
@@ -161,21 +167,21 @@ std::string scene_for(const fem::Mesh& mesh, const std::string& contents, const 
       "{7}"
       "    damping: 0.005\n"
       "    reduction: auto             # or {{basis: craig-bampton, modes: 12}}, or rigid\n"
-      "joints: {{}}                      # e.g. drive: {{parent: hub.east, child: {5}.root, revolute: y, angle: 30 "
+      "joints: {{}}                      # e.g. drive: {{parent: hub.east, child: {5}.{9}, revolute: y, angle: 30 "
       "deg}}\n"
-      "ground: []                      # ports fixed to the inertial frame, e.g. [{5}.root]\n"
-      "inputs: {{}}                      # e.g. push: {{at: {5}.root, force: z}}\n"
-      "outputs: {{}}                     # e.g. tip: {{at: {5}.root, acceleration: [x, y, z]}}\n"
+      "ground: []                      # ports fixed to the inertial frame, e.g. [{5}.{9}]\n"
+      "inputs: {{}}                      # e.g. push: {{at: {5}.{9}, force: z}}\n"
+      "outputs: {{}}                     # e.g. tip: {{at: {5}.{9}, acceleration: [x, y, z]}}\n"
       "requires: {{band: [0, BAND Hz], tolerance: 1e-3}}\n",
-      file.filename().string(), mesh.points.size(), size.x(), size.y(), size.z(), body, contents, ports,
-      quoted(from_scene.generic_string(), file));
+      file.filename().string(), mesh.points.size(), size.x(), size.y(), size.z(), body, contents, ports.text,
+      quoted(from_scene.generic_string(), file), ports.first);
 }
 
 std::string scene_of(const std::filesystem::path& file, InputKind kind, const std::filesystem::path& scene) {
   std::set<std::string> names;
   if (kind == InputKind::deck) {
     const fem::Deck deck = fem::read_deck(file, true);
-    const std::string ports = port_lines(deck.mesh, held_points(deck.mesh, deck.model), file, names);
+    const PortLines ports = port_lines(deck.mesh, held_points(deck.mesh, deck.model), file, names);
     return scene_for(deck.mesh, deck_lines(deck.model, file), ports, file, scene);
   }
   const fem::Mesh mesh = fem::read_mesh(file);
@@ -183,8 +189,8 @@ std::string scene_of(const std::filesystem::path& file, InputKind kind, const st
       "    material: aluminium         # or steel, titanium, {E: ..., nu: ..., rho: ...}\n"
       "    sections:                   # one for each set of cells\n" +
       section_lines(mesh, file);
-  std::string ports = port_lines(mesh, std::vector<bool>(mesh.points.size(), false), file, names);
-  ports += edge_lines(mesh, file, names);
+  PortLines ports = port_lines(mesh, std::vector<bool>(mesh.points.size(), false), file, names);
+  ports.text += edge_lines(mesh, file, names);
   return scene_for(mesh, sections, ports, file, scene);
 }
 
