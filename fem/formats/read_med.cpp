@@ -11,6 +11,7 @@
 #include "fem/formats/file_bytes.hpp"
 #include "fem/formats/hdf5.hpp"
 #include "fem/formats/med/kinds.hpp"
+#include "fem/formats/rehearsal.hpp"
 #include "fem/formats/vtk/grid.hpp"
 
 // What MED calls its objects in HDF5: a mesh ENS_MAA/name/step has nodes NOE {COO, NUM, FAM} and cells MAI/type {NOD,
@@ -349,10 +350,12 @@ Mesh MedReader::read() {
 
 }  // namespace
 
-Mesh read_med(const std::filesystem::path& path) {
+Mesh read_med(const std::filesystem::path& path, bool sound) {
   const MappedFile present(path);
+  const auto read = [&] { return MedReader(path, present.bytes().size()).read(); };
   try {
-    return MedReader(path, present.bytes().size()).read();
+    if (!sound) rehearse(path, read);
+    return read();
   } catch (const vtk::ArrayFault& fault) {
     throw InputError({path.string()}, fault.what, fault.cure);
   }

@@ -12,8 +12,10 @@ namespace tenon::fem {
 /// Fields on parts of a mesh, at points within cells or of later times are in Mesh::losses, and so are names, joints,
 /// equivalences, and the unit of the coordinates, which a scene states.
 /// Throws InputError, which names the group or dataset at fault; for cells this project has none of, curvilinear
-/// coordinates, several meshes. What is kept takes at most a hundred times the size of the file.
+/// coordinates, several meshes. What is kept takes at most a hundred times the size of the file. Damaged files on which
+/// HDF5 itself fails are refused too (rehearse).
 /// Source: MED-fichier 4, model and its HDF5 representation (salome-platform.org).
-Mesh read_med(const std::filesystem::path& path);
+/// @param sound  the file's bytes are known to be good HDF5: without rehearsal
+Mesh read_med(const std::filesystem::path& path, bool sound = false);
 
 }  // namespace tenon::fem

@@ -9,6 +9,7 @@
 #include "fem/error.hpp"
 #include "fem/formats/file_bytes.hpp"
 #include "fem/formats/hdf5.hpp"
+#include "fem/formats/rehearsal.hpp"
 
 namespace tenon::fem::xdmf {
 namespace {
@@ -121,7 +122,9 @@ vtk::Values binary_values(pugi::xml_node item, std::size_t n, const std::string&
 
 vtk::Values hdf5_values(const fs::path& file, const std::string& dataset, std::uint64_t most) {
   try {
-    return hdf5::File(file).values(dataset, most);
+    const auto read = [&] { return hdf5::File(file).values(dataset, most); };
+    rehearse(file, read);
+    return read();
   } catch (const vtk::ArrayFault& fault) {
     item_fault(fmt::format("names '{}' of '{}': {}", dataset, file.filename().string(), fault.what), fault.cure);
   }
