@@ -177,6 +177,7 @@ NastranDeck read_nastran(const std::filesystem::path& path, const NastranOptions
   draft.selection.has_case_control = text.has_case_control;
   draft.selection.spc = options.spc_set ? Choice{*options.spc_set, chosen} : choice(text, "SPC");
   draft.selection.mpc = options.mpc_set ? Choice{*options.mpc_set, chosen} : choice(text, "MPC");
+  draft.selection.nsm = choice(text, "NSM");
   draft.selection.material_temperature = selects_material_temperature(text);
   refuse_direct_input(draft, text);
 

@@ -59,8 +59,10 @@ struct NastranDeck {
 ///
 /// Shells. CQUADR and CTRIAR are read as CQUAD4 and CTRIA3, CQUAD8 and CTRIA6 split into four of these.
 ///
-/// PCOMP: plies of MAT8 or MAT1 in the axes of THETA or MCID, Z0 and ZOFFS become the element's offset; LAM blank or
-/// SYM.
+/// PCOMP, PCOMPG: plies of MAT8 or MAT1 in the axes of THETA or MCID, Z0 and ZOFFS become the element's offset; LAM
+/// blank or, of PCOMP, SYM.
+///
+/// NSM and NSM1 that case control selects (NSMADD too) join the non-structural mass of properties.
 ///
 /// Rods: CROD, CTUBE, CONROD bear force and torque (rod.hpp); with COUPMASS BeamMass::nastran, else half and half at
 /// their ends. Springs: CELAS1 to CELAS4 act between two dofs, in the displacement frame of each grid, or to ground;

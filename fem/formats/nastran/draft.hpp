@@ -98,13 +98,13 @@ struct ScalarPoints {
   bool is_held(long id) const;
 };
 
-/// The sets of SPC and MPC cards to apply, and where they were chosen.
+/// The sets of SPC, MPC and NSM cards to apply, and where they were chosen.
 struct Choice {
   long set = 0;
   Place place;
 };
 struct Selection {
-  std::optional<Choice> spc, mpc;
+  std::optional<Choice> spc, mpc, nsm;
   bool has_case_control = false;
   bool material_temperature = false;  ///< TEMPERATURE(MATERIAL), (INITIAL), (BOTH)
 };
@@ -174,7 +174,7 @@ void sort_cards(const Text& text, Draft& draft);
 // The steps, in the order of their calls.
 void read_grids(Draft& draft);          ///< GRDSET, CORDij, GRID
 void read_scalar_points(Draft& draft);  ///< SPOINT, QSET
-void read_elements(Draft& draft);  ///< MAT1/2/8, PBAR, PBARL, PBEAM, PBEAML, PROD, PTUBE, PSHELL, PCOMP, CBAR, CBEAM,
+void read_elements(Draft& draft);  ///< MAT1/2/8, PBAR, PBARL, PBEAM, PBEAML, PROD, PTUBE, PSHELL, PCOMP, NSM, CBAR, CBEAM,
                                    ///< CROD, CONROD, CTUBE, shells, CONM2, and those of read_springs
 void read_springs(Draft& draft, Register& elements);  ///< PELAS, CELAS1..4, PBUSH, CBUSH
 void lump_masses(Draft& draft);                       ///< without PARAM,COUPMASS
@@ -199,7 +199,7 @@ std::optional<Directions> basic_directions(unsigned components, const Mat3& axes
 int scalar_node(Draft& draft, const Card& card, long id, const std::vector<int>& fields);
 
 /// Which of the sets of one kind apply: the chosen one and, if it is an ADD card, the sets that card names. Sets that
-/// do not apply become losses. `kind` is SPC or MPC; `cards` are those of every set (field 1 = set number).
+/// do not apply become losses. `kind` is SPC, MPC or NSM; `cards` are those of every set (field 1 = set number).
 std::vector<Card> selected(Draft& draft, const char* kind, const std::vector<Card>& cards,
                            const std::optional<Choice>& choice);
 

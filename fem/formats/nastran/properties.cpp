@@ -177,6 +177,7 @@ Properties read_properties(Draft& draft, MaterialIndex& materials) {
   const Orthotropic orthotropic = read_orthotropic(draft);
   read_shells(draft, materials, orthotropic, properties);
   read_composites(draft, materials, orthotropic, properties);
+  add_nonstructural_mass(draft, properties);
   return properties;
 }
 

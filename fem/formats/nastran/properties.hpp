@@ -6,7 +6,7 @@
 
 #include "fem/formats/nastran/draft.hpp"
 
-/// Materials and sections of a deck: MAT1, MAT2, MAT8, PBAR, PBARL, PBEAM, PBEAML, PROD, PTUBE, PSHELL, PCOMP.
+/// Materials and sections of a deck: MAT1, MAT2, MAT8, PBAR, PBARL, PBEAM, PBEAML, PROD, PTUBE, PSHELL, PCOMP, PCOMPG.
 namespace tenon::fem::nastran {
 
 /// What an element's property number leads to: indices into the model.
@@ -44,7 +44,7 @@ Ply single_ply(const Card& card, const Orthotropic& orthotropic, const MaterialI
 
 struct Properties {
   std::unordered_map<long, Property> bars, beams;  ///< PBAR and PBARL, PBEAM and PBEAML by PID
-  std::unordered_map<long, Property> shells;       ///< PSHELL and PCOMP
+  std::unordered_map<long, Property> shells;       ///< PSHELL, PCOMP and PCOMPG
   std::unordered_map<long, Property> rods, tubes;  ///< PROD, PTUBE
 
   /// The property an element names; throws InputError at the field.
@@ -58,9 +58,12 @@ struct Properties {
 void read_bar_sections(Draft& draft, const MaterialIndex& materials, Properties& properties);   ///< PBAR, PBARL
 void read_beam_sections(Draft& draft, const MaterialIndex& materials, Properties& properties);  ///< PBEAM, PBEAML
 
-/// PCOMP: plies from bottom to top, each in the axes that THETA of the element and of the ply give.
+/// PCOMP, PCOMPG: plies from bottom to top, each in the axes that THETA of the element and of the ply give.
 void read_composites(Draft& draft, const MaterialIndex& materials, const Orthotropic& orthotropic,
                      Properties& properties);
+
+/// NSM, NSM1, NSMADD that case control selects: more non-structural mass for properties.
+void add_nonstructural_mass(Draft& draft, Properties& properties);
 
 /// The material that a card names; throws InputError at the field.
 int material(const MaterialIndex& materials, const Card& card, int field, const char* label);
