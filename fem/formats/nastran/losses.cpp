@@ -14,7 +14,7 @@ struct Harmless {
   std::string_view note;
 };
 
-constexpr std::array<Harmless, 11> harmless{{
+constexpr std::array<Harmless, 14> harmless{{
     {"EIGR EIGRL EIGB EIGC EIGP", "how Nastran would solve: the program has its own options"},
     {"FORCE FORCE1 FORCE2 MOMENT MOMENT1 MOMENT2 GRAV ACCEL ACCEL1 LOAD PLOAD PLOAD1 PLOAD2 PLOAD4 PLOADX1 RFORCE "
      "SLOAD "
@@ -32,6 +32,14 @@ constexpr std::array<Harmless, 11> harmless{{
      "a partition of the dofs for Nastran's own reduction: the frequencies here are those of all dofs"},
     {"PLOTEL PLOTEL3 PLOTEL4 SET1 SET3 GROUP ECHOON ECHOOFF DTI MDLPRM", "pictures, sets and output"},
     {"SEQGP EPOINT NOLIN* TF", "numbering and control systems"},
+    {"PBCOMP PBEND PBUSH1D PSHEAR PSOLID PLSOLID PLPLANE PGAP PMASS PWELD PFAST PAABSF MAT3 MAT9 MAT10 MAT11",
+     "properties and materials of elements that are not read: those would be named on their own"},
+    {"MAT4 MAT5 CHBDY* PHBDY CONV CONVM PCONV PCONVM QBDY* QHBDY QVOL QVECT RADBC RADM RADSET VIEW VIEW3D TEMPBC "
+     "TEMPN1",
+     "heat is no part of K and M"},
+    {"AERO AEROS AEFACT AELIST AELINK AEPARM AESTAT AESURF AESURFS AECOMP AECOMPL CAERO* PAERO* SPLINE* TRIM MKAERO* "
+     "FLFACT FLUTTER GUST MONPNT* SET2",
+     "aerodynamics is no part of K and M"},
     {"DESVAR DRESP* DCONSTR DCONADD DVPREL* DVMREL* DVCREL* DVGRID DVSHAP DOPTPRM DLINK DEQATN DSCREEN DTABLE DESGLB",
      "optimisation"},
 }};
@@ -48,10 +56,9 @@ bool listed(std::string_view names, std::string_view card) {
 
 constexpr std::string_view structural =
     "CBEAM3 CBEND CBUSH1D CSHEAR CQUAD CTETRA CHEXA "
-    "CPENTA CPYRAM CGAP CWELD CFAST CMASS* CONM1 CCONEAX CRAC* PBCOMP PBEND "
-    "PBUSH1D PSHEAR PSOLID PGAP PMASS MAT3 MAT9 MAT10 RBE1 RROD RTRPLT "
+    "CPENTA CPYRAM CGAP CWELD CFAST CMASS* CONM1 CCONEAX CRAC* RBE1 RROD RTRPLT "
     "RSPLINE RSSCON RJOINT GENEL DMIG SPCAX RELEASE SEBULK SECONCT SEELT SEMPLN SELOC "
-    "CSUPER BOLT BSURF BCTSET BGSET MAT4 PLPLANE PAABSF CAABSF CHACAB CFLUID2";
+    "CSUPER BOLT BSURF BCTSET BGSET CAABSF CHACAB CFLUID2";
 
 }  // namespace
 
@@ -63,6 +70,8 @@ void classify_rest(Draft& draft) {
       if (name.starts_with("MATT") && draft.selection.material_temperature)
         draft.losses.add_physical(name, "case control selects a temperature of materials, which it is for",
                                   card.place());
+      else if (name == "DMIG" && draft.selection.has_case_control)
+        draft.losses.add(name, "matrices that case control does not select by K2GG or M2GG");
       else if (group != harmless.end())
         draft.losses.add(name, std::string(group->note));
       else if (listed(structural, name))

@@ -100,3 +100,18 @@ TEST(NastranRefusals, ParametersOfCaseControl) {
   EXPECT_FALSE(read_deck("CEND\nPARAM,AUTOSPC,NO\n" + bulk).auto_spc);
   EXPECT_TRUE(read_deck("CEND\n" + bulk).auto_spc);
 }
+
+// What nothing uses takes nothing away: properties of elements that are not there, heat, aerodynamics, DMIG that case
+// control leaves alone.
+TEST(NastranRefusals, WhatHasNoEffectIsNone) {
+  const std::string bulk = "BEGIN BULK\nGRID,1\n", unused = "PSOLID,3,9\nMAT9,9,1.+9\nMAT4,1,200.\nCAERO1,7,1,,4,4\n";
+  const NastranDeck deck = read_deck("CEND\n" + bulk + unused + "ENDDATA\n");
+  for (const char* card : {"PSOLID", "MAT9", "MAT4", "CAERO1"}) EXPECT_EQ(lost(deck.mesh, card), 1) << card;
+  for (const Loss& loss : deck.mesh.losses) EXPECT_FALSE(loss.changes_physics) << loss.name;
+  EXPECT_THAT(refusal("CEND\n" + bulk + unused + "CHEXA,1,3,1,1,1,1,1,1\n,1,1\nENDDATA\n"),
+              HasSubstr("reading on would change stiffness or mass: CHEXA"));
+  const std::string matrix = "DMIG,STIF,0,6,1,0,,,1\nDMIG,STIF,1,1,,1,1,5.\nENDDATA\n";
+  EXPECT_EQ(lost(read_deck("CEND\n" + bulk + matrix).mesh, "DMIG"), 2);
+  EXPECT_THAT(refusal("CEND\nK2GG=STIF\n" + bulk + matrix), HasSubstr("K2GG"));
+  EXPECT_THAT(refusal(bulk.substr(11) + matrix), HasSubstr("DMIG"));
+}
