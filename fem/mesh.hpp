@@ -54,6 +54,11 @@ struct Loss {
   bool changes_physics = false;  ///< stiffness or mass would silently change: an error unless the user allows it
 };
 
+/// Note of a loss: cells that no element here carries, solids above all.
+inline constexpr const char* own_matrices =
+    "no element of this program carries it; the K and M that the program that owns the part makes of it can be used "
+    "instead (`matrices:` in a scene)";
+
 /// meshio's data model. A set's cells are indices within each block: cell_sets[name][block].
 struct Mesh {
   std::string source;           ///< file name, for messages

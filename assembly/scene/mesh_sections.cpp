@@ -139,7 +139,8 @@ std::string cells_in_words(const Mesh& mesh, const SceneBody& body, const std::v
   throw InputError(
       body.place, fmt::format("{} have no section", cells_in_words(mesh, body, marks, block)),
       fem::dimension(mesh.cells[block].type) == 3
-          ? "Solid elements are not among the elements of this version: mesh the part with shells and beams"
+          ? "Solids are no elements of this program: give the K and M that the program that owns the part makes of it "
+            "(`matrices:` in place of `fe:`), or mesh it with shells and beams"
       : in_a_set ? "Add the set under `sections`, or under `ignore` if it carries no structure"
                  : "Add `everywhere: {...}` under sections, `ignore: [everywhere]` if what no section names carries no "
                    "structure, or save only physical groups in the mesh");

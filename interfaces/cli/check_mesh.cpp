@@ -21,7 +21,7 @@ int check_mesh(const CheckOptions& options, bool deck) {
     found = fem::check_model(model);
   } else {
     const fem::Mesh mesh = fem::read_mesh(options.input);
-    losses = loss_lines(mesh.losses);
+    losses = loss_lines(losses_of(mesh));
     nodes = mesh.points.size();
     found = fem::check_mesh(mesh);
   }

@@ -74,7 +74,7 @@ Json to_json(const fem::Mesh& mesh, const fem::Model* model, const Eigen::Aligne
     for (const auto& [name, count] : contents(*model)) object["model"][name] = count;
   }
   object["read_past"] = Json::array();
-  for (const fem::Loss& loss : model ? model->losses : mesh.losses)
+  for (const fem::Loss& loss : model ? model->losses : losses_of(mesh))
     object["read_past"].push_back(
         {{"name", loss.name}, {"count", loss.count}, {"note", loss.note}, {"changes_physics", loss.changes_physics}});
   return object;
@@ -102,7 +102,7 @@ void print_people(const fem::Mesh& mesh, const fem::Model* model, const Eigen::A
   } else {
     print("\n  A mesh carries no units, materials or sections: a scene gives them (tenon init writes one).");
   }
-  const std::vector<std::string> losses = loss_lines(model ? model->losses : mesh.losses);
+  const std::vector<std::string> losses = loss_lines(model ? model->losses : losses_of(mesh));
   print(losses.empty() ? "\n  Nothing was read past." : "\n  Read past:");
   for (const std::string& line : losses) print(wrapped(line, 4));
 }

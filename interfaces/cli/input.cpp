@@ -37,6 +37,16 @@ fem::Deck read_deck(const std::filesystem::path& file, const std::vector<std::st
   return deck;
 }
 
+std::vector<fem::Loss> losses_of(const fem::Mesh& mesh) {
+  std::vector<fem::Loss> losses = mesh.losses;
+  const auto named = [](const fem::Loss& loss) { return loss.note == fem::own_matrices; };
+  if (std::ranges::any_of(losses, named)) return losses;  // by the file's own names
+  for (const fem::CellBlock& block : mesh.cells)
+    if (fem::dimension(block.type) == 3)
+      losses.push_back({std::string(fem::name(block.type)), block.size(), fem::own_matrices, true});
+  return losses;
+}
+
 std::vector<std::string> loss_lines(const std::vector<fem::Loss>& losses) {
   std::vector<std::string> lines;
   for (const fem::Loss& loss : losses)

@@ -12,10 +12,6 @@
 namespace tenon::fem::abaqus {
 namespace {
 
-constexpr const char* own_matrices =
-    "no element of this program carries it; the K and M that the other program makes of the part can be used instead "
-    "(`matrices:` in a scene)";
-
 /// What a section's keyword may say without changing the linear K and M in a way that is not read here.
 const std::map<std::string, std::set<std::string>> section_parameters{
     {"BEAM SECTION", {"ELSET", "MATERIAL", "SECTION", "POISSON", "TEMPERATURE"}},

@@ -55,8 +55,7 @@ bool listed(std::string_view names, std::string_view card) {
 }
 
 constexpr std::string_view structural =
-    "CBEAM3 CBEND CBUSH1D CSHEAR CQUAD CTETRA CHEXA "
-    "CPENTA CPYRAM CGAP CWELD CFAST CMASS* CONM1 CCONEAX CRAC* RBE1 RROD RTRPLT "
+    "CBEAM3 CBEND CBUSH1D CSHEAR CQUAD CGAP CWELD CFAST CMASS* CONM1 CCONEAX CRAC* RBE1 RROD RTRPLT "
     "RSPLINE RSSCON RJOINT GENEL DMIG SPCAX RELEASE SEBULK SECONCT SEELT SEMPLN SELOC "
     "CSUPER BOLT BSURF BCTSET BGSET CAABSF CHACAB CFLUID2";
 
@@ -74,6 +73,8 @@ void classify_rest(Draft& draft) {
         draft.losses.add(name, "matrices that case control does not select by K2GG or M2GG");
       else if (group != harmless.end())
         draft.losses.add(name, std::string(group->note));
+      else if (listed("CTETRA CHEXA CPENTA CPYRAM", name))
+        draft.losses.add_physical(name, own_matrices, card.place());
       else if (listed(structural, name))
         draft.losses.add_physical(name, "it adds or defines stiffness or mass and is not read", card.place());
       else

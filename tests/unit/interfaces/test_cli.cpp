@@ -348,6 +348,14 @@ TEST_F(Cli, InitWritesScenesForEveryFormat) {
   const Ended solid = tenon("init " + (folder / "block.vtk").string());
   EXPECT_EQ(solid.status, 2);
   EXPECT_THAT(solid.err, HasSubstr("by the K and M of the program that owns it"));
+  const json info = json::parse(tenon("info " + (folder / "block.vtk").string() + " --json").out);
+  EXPECT_EQ(info["read_past"][0]["name"], "tetra");
+  EXPECT_EQ(info["read_past"][0]["changes_physics"], true);
+  for (const char* command : {"info ", "check "})
+    EXPECT_THAT(tenon(command + (folder / "block.vtk").string()).out, HasSubstr("`matrices:` in a scene"));
+  std::ofstream(folder / "block.yaml") << "units: SI\nbodies:\n  b:\n    fe: block.vtk\n    material: steel\n"
+                                          "    sections: {everywhere: {shell: 0.1}}\n    ports: {p: {node: 1}}\n";
+  EXPECT_THAT(tenon("check " + (folder / "block.yaml").string()).err, HasSubstr("`matrices:` in place of `fe:`"));
 }
 
 /// What a deck holds takes no joint: sets of held nodes stay comments, and the port falls to a free node of the deck.
